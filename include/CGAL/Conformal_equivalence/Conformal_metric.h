@@ -1,0 +1,62 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file Conformal_metric.h
+/// A metric within its conformal class: a triangulation with lengths and a scale
+/// factor at every vertex (Definition 2.2 of Springborn, Schroeder and Pinkall, 2008).
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_CONFORMAL_METRIC_H
+#define CGAL_CONFORMAL_EQUIVALENCE_CONFORMAL_METRIC_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceSolver
+///
+/// What the solver returns: the metric l~_ij = e^{(u_i + u_j) / 2} l_ij (equation (2)), or
+/// the reason why there is none.
+template <typename NT_ = double>
+struct Conformal_metric
+{
+  typedef NT_ NT;
+  typedef std::uint32_t Index;
+  /// at least as wide as `NT`: for `double` a pair of two
+  typedef typename internal::Wider_number<NT>::type Wide_number;
+
+  Intrinsic_triangulation<NT> triangulation;  ///< with the lengths l, at u = 0
+  std::vector<NT> log_scale_factors;          ///< u, by vertex, rounded to `NT`
+  /// e^{u/2}, by vertex, to all the digits that the solver knows: the scaled lengths
+  /// made with these are exactly conformally equivalent to the given ones.
+  std::vector<Wide_number> scale_factors;
+
+  Status status = Status::OK;
+  double amount = 0;                          ///< see `Status`
+  /// \name Elements at fault
+  /// @{
+  std::vector<Index> vertices, edges, faces;
+  /// @}
+  Statistics statistics;
+
+  /// is `true` iff the metric is usable.
+  explicit operator bool() const { return is_success(status); }
+
+  /// the scaled length of the edge of halfedge `h`, rounded to `NT`.
+  NT scaled_length(Index h) const { return static_cast<NT>(wide_scaled_length(h)); }
+
+  /// the same as wide as it is known.
+  Wide_number wide_scaled_length(Index h) const { return internal::wide_length(triangulation, scale_factors, h); }
+};
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_CONFORMAL_METRIC_H

@@ -1,0 +1,140 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file Eigen_pattern_solver_traits.h
+/// The direct solvers of Eigen with the analysis of a matrix's pattern split from
+/// the factorization of its numbers, and the solver that this package uses unless
+/// told otherwise.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_EIGEN_PATTERN_SOLVER_TRAITS_H
+#define CGAL_CONFORMAL_EQUIVALENCE_EIGEN_PATTERN_SOLVER_TRAITS_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Eigen_solver_traits.h>
+
+#include <Eigen/SparseCholesky>
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD
+#  include <Eigen/CholmodSupport>
+#endif
+
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+namespace internal {
+
+template <typename Solver, typename = void>
+struct Is_cholmod_solver : std::false_type {};
+
+template <typename Solver>
+struct Is_cholmod_solver<Solver, std::void_t<decltype(std::declval<Solver&>().cholmod().method[0].ordering)> >
+  : std::true_type {};
+
+template <typename Solver, typename = void>
+struct Has_diagonal : std::false_type {};
+
+template <typename Solver>
+struct Has_diagonal<Solver, std::void_t<decltype(std::declval<const Solver&>().vectorD())> >
+  : std::true_type {};
+
+} // namespace internal
+
+/// \ingroup PkgConformalEquivalenceSolver
+///
+/// Gives the symmetric direct solvers of \ref thirdpartyEigen "Eigen" the three
+/// steps analyze, factorize, solve, so that matrices of the same pattern share one
+/// analysis. The matrix is symmetric positive definite; its lower half is read.
+///
+/// CHOLMOD is told to order by minimum degree (AMD): its own choice, METIS, takes
+/// several times longer than the factorization that it helps, for surfaces of up to
+/// a million vertices. It prints nothing.
+///
+/// \tparam EigenSolver `Eigen::SimplicialLDLT`, `Eigen::SimplicialLLT`,
+///         `Eigen::CholmodSupernodalLLT` or another direct solver with `analyzePattern()` and
+///         `factorize()` that reads the lower half of the matrix.
+///
+/// \cgalModels{SparseLinearAlgebraWithPatternTraits_d}
+template <typename EigenSolver>
+class Eigen_pattern_solver_traits
+  : public CGAL::Eigen_solver_traits<EigenSolver>
+{
+  typedef CGAL::Eigen_solver_traits<EigenSolver> Base;
+
+public:
+  typedef typename Base::Matrix Matrix;
+  typedef typename Base::Vector Vector;
+  typedef typename Base::NT     NT;
+
+  Eigen_pattern_solver_traits()
+  {
+    if constexpr(internal::Is_cholmod_solver<EigenSolver>::value)
+    {
+      auto& common = this->solver().cholmod();
+      const int amd = 2; // CHOLMOD_AMD
+      common.nmethods = 1;
+      common.method[0].ordering = amd;
+      common.postorder = true;
+      common.print = 0;
+    }
+  }
+
+  /// orders the rows and analyzes the pattern of `A`. Returns `true` on success.
+  bool analyze_pattern(const Matrix& A)
+  {
+    this->solver().analyzePattern(A.eigen_object());
+    return true;
+  }
+
+  /// factorizes `A`, of which only the numbers have changed since `analyze_pattern()`.
+  /// Returns `true` iff `A` is positive definite as far as rounding tells.
+  bool refactor(const Matrix& A, NT& D)
+  {
+    D = NT(1);
+    this->m_mat = &A.eigen_object();
+    this->solver().factorize(A.eigen_object());
+    return is_positive_definite();
+  }
+
+  /// analyzes and factorizes `A`. Returns `true` iff it is positive definite.
+  bool factor(const Matrix& A, NT& D)
+  {
+    return analyze_pattern(A) && refactor(A, D);
+  }
+
+private:
+  bool is_positive_definite()
+  {
+    if(this->solver().info() != Eigen::Success)
+      return false;
+    if constexpr(internal::Has_diagonal<EigenSolver>::value)
+      return this->solver().vectorD().minCoeff() > NT(0);
+    return true;
+  }
+};
+
+/// \ingroup PkgConformalEquivalenceSolver
+/// Eigen's own sparse Cholesky factorization. Needs no further library.
+typedef Eigen_pattern_solver_traits<Eigen::SimplicialLDLT<Eigen_sparse_matrix<double>::EigenType> > Simplicial_solver_traits;
+
+/// \ingroup PkgConformalEquivalenceSolver
+/// The solver used where none is named: CHOLMOD's supernodal Cholesky factorization where the
+/// macro `CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD` is defined (by the CMake target
+/// `Conformal_equivalence::CHOLMOD_support`), `Simplicial_solver_traits` otherwise.
+///
+/// The solver traits are a template argument of everything reached from them, so units compiled
+/// with and without the macro may be linked together.
+#if defined(DOXYGEN_RUNNING)
+typedef unspecified_type Default_solver_traits;
+#elif defined(CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD)
+typedef Eigen_pattern_solver_traits<Eigen::CholmodSupernodalLLT<Eigen_sparse_matrix<double>::EigenType> > Default_solver_traits;
+#else
+typedef Simplicial_solver_traits Default_solver_traits;
+#endif
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_EIGEN_PATTERN_SOLVER_TRAITS_H

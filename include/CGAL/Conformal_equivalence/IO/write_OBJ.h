@@ -1,0 +1,215 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file IO/write_OBJ.h
+/// A mesh with its layout as texture coordinates, as Wavefront OBJ. \cgal's own
+/// writer has no texture coordinates. With the projective weights of the paper's
+/// section 3.4 the coordinates are homogeneous, and a program that divides them
+/// at each pixel shows the projective interpolation.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_OBJ_H
+#define CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_OBJ_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/internal/corner_values.h>
+#include <CGAL/Conformal_equivalence/internal/PNG.h>
+#include <CGAL/Conformal_equivalence/internal/Text_buffer.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/property_map.h>
+
+#include <array>
+#include <cstddef>
+#include <fstream>
+#include <ostream>
+#include <string>
+#include <type_traits>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+namespace internal {
+
+template <typename TriangleMesh, typename VertexPointMap, typename VertexNumberMap>
+void write_obj_vertices(Text_buffer& out, const TriangleMesh& tm, const VertexPointMap& vpm,
+                        VertexNumberMap number)
+{
+  std::size_t n = 0;
+  for(auto v : vertices(tm))
+  {
+    const auto& p = get(vpm, v);
+    out << "v " << CGAL::to_double(p.x()) << ' ' << CGAL::to_double(p.y())
+        << ' ' << CGAL::to_double(p.z()) << '\n';
+    put(number, v, ++n);
+  }
+}
+
+// Affine texture coordinates, or homogeneous ones where `weights` is a map.
+template <typename TriangleMesh, typename HalfedgeUVMap, typename WeightMap, typename HalfedgeNumberMap>
+void write_obj_texture_coordinates(Text_buffer& out, const TriangleMesh& tm, const HalfedgeUVMap& uv,
+                                   const WeightMap& weights, HalfedgeNumberMap number)
+{
+  for(auto h : number_corner_values(tm, uv, number))
+  {
+    const std::array<double, 2> p = corner_value(uv, h);
+    if constexpr(std::is_same<WeightMap, internal_np::Param_not_found>::value)
+      out << "vt " << p[0] << ' ' << p[1] << '\n';
+    else
+    {
+      const double w = CGAL::to_double(get(weights, target(h, tm)));
+      out << "vt " << p[0] * w << ' ' << p[1] * w << ' ' << w << '\n';
+    }
+  }
+}
+
+template <typename TriangleMesh, typename VertexNumberMap, typename HalfedgeNumberMap>
+void write_obj_faces(Text_buffer& out, const TriangleMesh& tm,
+                     VertexNumberMap vertex_number, HalfedgeNumberMap corner_number)
+{
+  for(auto f : faces(tm))
+  {
+    out << 'f';
+    for(auto h : CGAL::halfedges_around_face(halfedge(f, tm), tm))
+      out << ' ' << get(vertex_number, target(h, tm)) << '/' << get(corner_number, h) + 1;
+    out << '\n';
+  }
+}
+
+} // namespace internal
+
+namespace IO {
+
+/// \ingroup PkgConformalEquivalenceIO
+/// The material that an OBJ file names: the material library (a file beside the
+/// OBJ file, written by `write_MTL()`) and the material in it. Nothing is named
+/// if `library` is empty.
+struct OBJ_material
+{
+  std::string library;
+  std::string name = "layout";
+};
+
+/*!
+\ingroup PkgConformalEquivalenceIO
+
+writes `tm`, with the layout `uv` as texture coordinates, as Wavefront OBJ.
+
+The vertices come in the order of `vertices(tm)`, isolated ones included, the faces in that
+of `faces(tm)`. Each distinct value among the corners of a vertex becomes one line `vt`, so
+that a vertex inside the layout has one and a vertex on a seam has several. Numbers
+are written with as many digits (at most 17) as it takes to read the same `double` back,
+whatever the settings of the stream.
+
+\tparam TriangleMesh a model of `FaceListGraph`
+\tparam HalfedgeUVMap a model of `ReadablePropertyMap` with
+        `boost::graph_traits<TriangleMesh>::%halfedge_descriptor` as key type and a `%Point_2` as value type
+\tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+
+\param out the output stream
+\param tm a mesh
+\param uv the layout: `uv[h]` is the place of the corner of `target(h, tm)` in `face(h, tm)`;
+       border halfedges are not read
+\param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+\param material the material to name in the file
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{vertex_point_map}
+    \cgalParamDescription{the points of the vertices}
+    \cgalParamType{a model of `ReadablePropertyMap` from vertices to `%Point_3`}
+    \cgalParamDefault{`boost::get(CGAL::vertex_point, tm)`}
+  \cgalParamNEnd
+  \cgalParamNBegin{projective_weight_map}
+    \cgalParamDescription{weights \f$w\f$: with them the lines `vt` hold the homogeneous
+                          coordinates \f$(uw, vw, w)\f$. Scale the weights so that the largest is 1.}
+    \cgalParamType{a model of `ReadablePropertyMap` from vertices to `double`}
+    \cgalParamDefault{none: affine coordinates \f$(u, v)\f$}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
+
+\return `true` iff the stream is good after writing
+
+Takes linear time (quadratic in the number of distinct values at a single vertex).
+Springborn, Schröder, Pinkall 2008, section 3.4.
+*/
+template <typename TriangleMesh, typename HalfedgeUVMap,
+          typename NamedParameters = parameters::Default_named_parameters>
+bool write_OBJ(std::ostream& out, const TriangleMesh& tm, HalfedgeUVMap uv,
+               const NamedParameters& np = parameters::default_values(),
+               const OBJ_material& material = OBJ_material())
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+
+  const auto vpm = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                    get_const_property_map(CGAL::vertex_point, tm));
+  const auto weights = get_parameter(np, internal_np::conformal_weight);
+  const auto vertex_number = get(CGAL::dynamic_vertex_property_t<std::size_t>(), tm);
+  const auto corner_number = get(CGAL::dynamic_halfedge_property_t<std::size_t>(), tm);
+
+  {
+    internal::Text_buffer buffer(out);
+    if(! material.library.empty())
+      buffer << "mtllib " << material.library << '\n';
+    internal::write_obj_vertices(buffer, tm, vpm, vertex_number);
+    internal::write_obj_texture_coordinates(buffer, tm, uv, weights, corner_number);
+    if(! material.library.empty())
+      buffer << "usemtl " << material.name << '\n';
+    internal::write_obj_faces(buffer, tm, vertex_number, corner_number);
+  }
+  out.flush();
+  return out.good();
+}
+
+/// \ingroup PkgConformalEquivalenceIO
+/// writes the file `file_name`; see the function above. Returns `false`, too, if
+/// the file cannot be opened.
+template <typename TriangleMesh, typename HalfedgeUVMap,
+          typename NamedParameters = parameters::Default_named_parameters>
+bool write_OBJ(const std::string& file_name, const TriangleMesh& tm, HalfedgeUVMap uv,
+               const NamedParameters& np = parameters::default_values(),
+               const OBJ_material& material = OBJ_material())
+{
+  std::ofstream out(file_name, std::ios::binary);
+  return out.good() && write_OBJ(out, tm, uv, np, material);
+}
+
+/// \ingroup PkgConformalEquivalenceIO
+/// writes a material library with one material called `name`, matt and white, with the
+/// picture in the file `texture` on it, which is repeated `repetitions` times in a
+/// unit of the layout. Returns `true` iff the stream is good after writing.
+inline bool write_MTL(std::ostream& out, const std::string& name, const std::string& texture,
+                      double repetitions = 1)
+{
+  {
+    internal::Text_buffer buffer(out);
+    buffer << "newmtl " << name << "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd -s "
+           << repetitions << ' ' << repetitions << " 1 " << texture << '\n';
+  }
+  out.flush();
+  return out.good();
+}
+
+/// \ingroup PkgConformalEquivalenceIO
+/// writes a PNG picture of two by two squares of a checkerboard, made to be repeated.
+/// The stream must be binary. Returns `true` iff it is good after writing.
+inline bool write_checkerboard_PNG(std::ostream& out)
+{
+  const std::uint32_t side = 64;
+  internal::Palette_image image(2 * side, 2 * side, {{{245, 245, 240, 255}}, {{70, 110, 160, 255}}});
+  for(std::uint32_t y = 0; y < image.height; ++y)
+    for(std::uint32_t x = 0; x < image.width; ++x)
+      image.pixels[y * image.width + x] = (x / side + y / side) % 2;
+  const std::string file = internal::png_file(image);
+  out.write(file.data(), static_cast<std::streamsize>(file.size()));
+  out.flush();
+  return out.good();
+}
+
+} // namespace IO
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_OBJ_H

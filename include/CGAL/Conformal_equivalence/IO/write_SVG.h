@@ -1,0 +1,440 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file IO/write_SVG.h
+/// A picture of a layout: its triangles coloured by a number each, for example the
+/// logarithmic scale factor (section 2 of the paper) or the quasi-conformal factor
+/// (section 7), under a checkerboard, with the outline and a legend.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_SVG_H
+#define CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_SVG_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/internal/color_scale.h>
+#include <CGAL/Conformal_equivalence/internal/corner_values.h>
+#include <CGAL/Conformal_equivalence/internal/PNG.h>
+#include <CGAL/Conformal_equivalence/internal/Text_buffer.h>
+
+#include <CGAL/property_map.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace IO {
+
+/// \ingroup PkgConformalEquivalenceIO
+/// How `write_SVG()` draws.
+struct SVG_options
+{
+  /// What stands over the colours of the legend.
+  std::string legend = "u";
+  /// Whether a checkerboard lies over the triangles, its squares along the axes of the layout.
+  bool checkerboard = true;
+  /// The side of a square; 0 chooses a round number such that about 20 squares lie along the layout.
+  double square = 0;
+  /// The longer side of the drawing.
+  double size = 1000;
+  /// Up to this many faces each triangle has its outline,
+  std::size_t maximum_number_of_outlined_faces = 20000;
+  /// up to this many it is drawn as a triangle; the triangles of larger meshes become an image of pixels.
+  std::size_t maximum_number_of_drawn_faces = 250000;
+};
+
+} // namespace IO
+
+namespace internal {
+
+// From the layout to the drawing: y points down there, and coordinates are
+// integers, hundredths of the unit of the drawing.
+struct SVG_frame
+{
+  double left, top, scale, width, height;
+
+  SVG_frame(const Finite_range& x, const Finite_range& y, double size)
+    : left(x.empty() ? 0 : x.lower), top(y.empty() ? 0 : y.upper), scale(1), width(size), height(size)
+  {
+    const double w = x.empty() ? 0 : x.upper - x.lower, h = y.empty() ? 0 : y.upper - y.lower;
+    const double longest = (std::max)(w, h);
+    if(longest > 0 && std::isfinite(longest))
+    {
+      scale = size / longest;
+      width = w / longest * size;
+      height = h / longest * size;
+    }
+  }
+
+  std::array<double, 2> operator()(const std::array<double, 2>& p) const
+  {
+    return {{ (p[0] - left) * scale, (top - p[1]) * scale }};
+  }
+
+  std::array<std::int64_t, 2> in_hundredths(const std::array<double, 2>& p) const
+  {
+    const std::array<double, 2> q = (*this)(p);
+    return {{ std::llround(100 * q[0]), std::llround(100 * q[1]) }};
+  }
+};
+
+template <typename TriangleMesh, typename HalfedgeUVMap, typename FaceScalarMap>
+class SVG_writer
+{
+  typedef boost::graph_traits<TriangleMesh>           Graph_traits;
+  typedef typename Graph_traits::halfedge_descriptor  halfedge_descriptor;
+  typedef typename Graph_traits::face_descriptor      face_descriptor;
+  typedef std::array<double, 2>                       Point;
+  typedef std::array<std::int64_t, 2>                 Grid_point;
+
+  static constexpr std::size_t number_of_classes = 64;
+
+public:
+  SVG_writer(const TriangleMesh& tm, const HalfedgeUVMap& uv, const FaceScalarMap& scalar,
+             const IO::SVG_options& options)
+    : m_tm(tm), m_uv(uv), m_scalar(scalar), m_options(options), m_frame(frame())
+  {
+    if(! (m_options.square > 0))
+      m_options.square = round_number_below(m_options.size / m_frame.scale / 14);
+    for(face_descriptor f : faces(m_tm))
+      m_values.insert(CGAL::to_double(get(m_scalar, f)));
+  }
+
+  // the side of a square of the checkerboard
+  double square() const { return m_options.square; }
+
+  void write(Text_buffer& out) const
+  {
+    const double margin = 20, legend_width = 150;
+    out << "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\""
+        << -margin << ' ' << -margin << ' ' << m_frame.width + 2 * margin + legend_width << ' '
+        << (std::max)(m_frame.height, 360.) + 2 * margin
+        << "\" font-family=\"sans-serif\" font-size=\"16\">\n";
+    if(number_of_faces() > m_options.maximum_number_of_drawn_faces)
+      write_image(out);
+    else
+      write_triangles(out);
+    write_outline(out);
+    write_legend(out, m_frame.width + margin);
+    out << "</svg>\n";
+  }
+
+private:
+  std::size_t number_of_faces() const { return faces(m_tm).size(); }
+
+  SVG_frame frame() const
+  {
+    Finite_range x, y;
+    for(face_descriptor f : faces(m_tm))
+      for(const Point& p : corners(f))
+        if(is_finite(p))
+        {
+          x.insert(p[0]);
+          y.insert(p[1]);
+        }
+    return SVG_frame(x, y, m_options.size);
+  }
+
+  static bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); }
+
+  std::array<Point, 3> corners(face_descriptor f) const
+  {
+    const halfedge_descriptor h = halfedge(f, m_tm), n = next(h, m_tm);
+    return {{ corner_value(m_uv, h), corner_value(m_uv, n), corner_value(m_uv, next(n, m_tm)) }};
+  }
+
+  bool is_drawable(const std::array<Point, 3>& t) const
+  {
+    return is_finite(t[0]) && is_finite(t[1]) && is_finite(t[2]);
+  }
+
+  std::size_t color_class(face_descriptor f) const
+  {
+    const double t = m_values.parameter(CGAL::to_double(get(m_scalar, f)));
+    return (std::min)(static_cast<std::size_t>(t * number_of_classes), number_of_classes - 1);
+  }
+
+  static std::string class_color(std::size_t c)
+  {
+    return hexadecimal(sequential_color((double(c) + 0.5) / number_of_classes));
+  }
+
+  // One path a colour.
+  void write_triangles(Text_buffer& out) const
+  {
+    std::array<std::vector<face_descriptor>, number_of_classes> classes;
+    for(face_descriptor f : faces(m_tm))
+      classes[color_class(f)].push_back(f);
+
+    out << "<g id=\"triangles\" transform=\"scale(.01)\" stroke-width=\"30\" stroke-linejoin=\"round\">\n";
+    for(std::size_t c = 0; c < number_of_classes; ++c)
+    {
+      if(classes[c].empty())
+        continue;
+      const std::string color = class_color(c);
+      out << "<path fill=\"" << color << "\" stroke=\"" << color << "\" d=\"";
+      for(face_descriptor f : classes[c])
+        write_triangle(out, corners(f));
+      out << "\"/>\n";
+    }
+    out << "</g>\n";
+    if(number_of_faces() <= m_options.maximum_number_of_outlined_faces)
+      write_edges(out);
+  }
+
+  void write_triangle(Text_buffer& out, const std::array<Point, 3>& t) const
+  {
+    if(! is_drawable(t))
+      return;
+    const Grid_point a = m_frame.in_hundredths(t[0]), b = m_frame.in_hundredths(t[1]), c = m_frame.in_hundredths(t[2]);
+    out << 'M' << a[0] << ' ' << a[1];
+    write_step(out << 'l', a, b);
+    write_step(out << ' ', b, c);
+    out << 'z';
+  }
+
+  static void write_step(Text_buffer& out, const Grid_point& a, const Grid_point& b)
+  {
+    out << b[0] - a[0] << ' ' << b[1] - a[1];
+  }
+
+  void write_edges(Text_buffer& out) const
+  {
+    out << "<path id=\"edges\" transform=\"scale(.01)\" fill=\"none\" stroke=\"#fff\" stroke-opacity=\".35\" stroke-width=\"40\" d=\"";
+    for(auto e : edges(m_tm))
+    {
+      halfedge_descriptor h = halfedge(e, m_tm);
+      if(is_border(h, m_tm))
+        h = opposite(h, m_tm);
+      if(is_border(h, m_tm) || is_outline(m_tm, m_uv, h))
+        continue;
+      const Point p = corner_value(m_uv, prev(h, m_tm)), q = corner_value(m_uv, h);
+      if(! is_finite(p) || ! is_finite(q))
+        continue;
+      const Grid_point a = m_frame.in_hundredths(p), b = m_frame.in_hundredths(q);
+      out << 'M' << a[0] << ' ' << a[1];
+      write_step(out << 'l', a, b);
+    }
+    out << "\"/>\n";
+  }
+
+  // The triangles of a large mesh, as pixels.
+  void write_image(Text_buffer& out) const
+  {
+    std::vector<Palette_image::Color> palette(1, Palette_image::Color{{0, 0, 0, 0}});
+    for(std::size_t c = 0; c < number_of_classes; ++c)
+    {
+      const RGB rgb = sequential_color((double(c) + 0.5) / number_of_classes);
+      palette.push_back({{rgb[0], rgb[1], rgb[2], 255}});
+    }
+    const double pixels = 1.5; // in a unit of the drawing
+    Palette_image image(number_of_pixels(pixels * m_frame.width), number_of_pixels(pixels * m_frame.height), palette);
+    for(face_descriptor f : faces(m_tm))
+      fill(image, pixels, corners(f), static_cast<unsigned char>(1 + color_class(f)));
+
+    const std::string png = png_file(image);
+    out << "<image id=\"triangles\" width=\"" << image.width / pixels << "\" height=\"" << image.height / pixels
+        << "\" xlink:href=\"data:image/png;base64,";
+    write_base64(out, reinterpret_cast<const unsigned char*>(png.data()), png.size());
+    out << "\"/>\n";
+  }
+
+  static std::uint32_t number_of_pixels(double x)
+  {
+    return static_cast<std::uint32_t>((std::max)(1., std::ceil(x)));
+  }
+
+  // Colours the pixels whose centres lie in the triangle, row by row; a triangle
+  // that holds no centre still colours the pixel at its centroid.
+  void fill(Palette_image& image, double pixels, const std::array<Point, 3>& t, unsigned char color) const
+  {
+    if(! is_drawable(t))
+      return;
+    std::array<Point, 3> q;
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      q[k] = m_frame(t[k]);
+      q[k] = {{ q[k][0] * pixels - 0.5, q[k][1] * pixels - 0.5 }};
+    }
+    const auto pixel = [&](double x, double y) -> unsigned char&
+    {
+      const auto inside = [](double z, std::uint32_t n) { return static_cast<std::size_t>((std::min)((std::max)(z, 0.), n - 1.)); };
+      return image.pixels[inside(y, image.height) * image.width + inside(x, image.width)];
+    };
+    pixel(std::round((q[0][0] + q[1][0] + q[2][0]) / 3), std::round((q[0][1] + q[1][1] + q[2][1]) / 3)) = color;
+
+    const double bottom = (std::max)({q[0][1], q[1][1], q[2][1]});
+    for(double y = std::ceil((std::min)({q[0][1], q[1][1], q[2][1]})); y <= bottom; ++y)
+    {
+      Finite_range row;
+      for(std::size_t k = 0; k < 3; ++k)
+      {
+        const Point& a = q[k];
+        const Point& b = q[(k + 1) % 3];
+        if((a[1] <= y) != (b[1] <= y))
+          row.insert(a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
+      }
+      for(double x = std::ceil(row.lower); x <= row.upper; ++x)
+        pixel(x, y) = color;
+    }
+  }
+
+  // The closed curves around the layout, filled with the checkerboard.
+  void write_outline(Text_buffer& out) const
+  {
+    if(m_options.checkerboard)
+      write_checkerboard_pattern(out);
+    out << "<path id=\"outline\" fill=\"" << (m_options.checkerboard ? "url(#checkerboard)" : "none")
+        << "\" stroke=\"#000\" stroke-width=\"1.5\" stroke-linejoin=\"round\" d=\"";
+    auto is_done = get(CGAL::dynamic_halfedge_property_t<bool>(), m_tm);
+    for(halfedge_descriptor h : halfedges(m_tm))
+      put(is_done, h, false);
+    for(halfedge_descriptor h : halfedges(m_tm))
+      if(! is_border(h, m_tm) && ! get(is_done, h) && is_outline(m_tm, m_uv, h))
+        write_closed_curve(out, h, is_done);
+    out << "\"/>\n";
+    // seams and cones follow here
+  }
+
+  template <typename HalfedgeBoolMap>
+  void write_closed_curve(Text_buffer& out, halfedge_descriptor first, HalfedgeBoolMap is_done) const
+  {
+    bool is_begun = false;
+    Grid_point previous{{0, 0}};
+    halfedge_descriptor h = first;
+    do
+    {
+      put(is_done, h, true);
+      const Point p = corner_value(m_uv, h);
+      if(is_finite(p))
+      {
+        const Grid_point q = m_frame.in_hundredths(p);
+        if(! is_begun)
+          write_hundredths(out << 'M', q);
+        else if(q != previous)
+          write_hundredths(out << 'l', {{ q[0] - previous[0], q[1] - previous[1] }});
+        is_begun = true;
+        previous = q;
+      }
+      h = next_on_outline(m_tm, m_uv, h);
+    }
+    while(h != first);
+    if(is_begun)
+      out << 'z';
+  }
+
+  static void write_hundredths(Text_buffer& out, const Grid_point& p)
+  {
+    out << static_cast<double>(p[0]) / 100 << ' ' << static_cast<double>(p[1]) / 100;
+  }
+
+  // Squares of the layout, one of them with its lower left corner at the origin.
+  void write_checkerboard_pattern(Text_buffer& out) const
+  {
+    const double side = m_options.square * m_frame.scale, period = 2 * side;
+    const Point origin = m_frame({{0, 0}});
+    out << "<defs><pattern id=\"checkerboard\" patternUnits=\"userSpaceOnUse\" x=\"" << std::fmod(origin[0], period)
+        << "\" y=\"" << std::fmod(origin[1], period) << "\" width=\"" << period << "\" height=\"" << period
+        << "\"><path d=\"M0 0h" << side << 'v' << period << 'h' << side << 'v' << -side << 'h' << -period
+        << "z\" fill=\"#000\" fill-opacity=\".28\"/></pattern></defs>\n";
+  }
+
+  void write_legend(Text_buffer& out, double x) const
+  {
+    const double height = 256, top = 50, step = height / number_of_classes;
+    out << "<g id=\"legend\"><text x=\"" << x << "\" y=\"" << top - 30 << "\">"
+        << escaped_for_xml(m_options.legend) << "</text>\n";
+    for(std::size_t c = 0; c < number_of_classes; ++c)
+      out << "<rect x=\"" << x << "\" y=\"" << top + double(number_of_classes - 1 - c) * step
+          << "\" width=\"24\" height=\"" << step + 0.5 << "\" fill=\"" << class_color(c) << "\"/>\n";
+    if(! m_values.empty())
+    {
+      out << "<text x=\"" << x + 30 << "\" y=\"" << top + 12 << "\">" << short_text(m_values.upper) << "</text>\n"
+          << "<text x=\"" << x + 30 << "\" y=\"" << top + height << "\">" << short_text(m_values.lower) << "</text>\n";
+    }
+    if(m_options.checkerboard)
+      out << "<text x=\"" << x << "\" y=\"" << top + height + 34 << "\" font-size=\"13\">squares: "
+          << short_text(m_options.square) << "</text>\n";
+    out << "</g>\n";
+  }
+
+  static std::string short_text(double x)
+  {
+    char text[32];
+    const std::to_chars_result end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 6);
+    return std::string(text, end.ptr);
+  }
+
+  const TriangleMesh& m_tm;
+  const HalfedgeUVMap& m_uv;
+  const FaceScalarMap& m_scalar;
+  IO::SVG_options m_options;
+  SVG_frame m_frame;
+  Finite_range m_values;
+};
+
+} // namespace internal
+
+namespace IO {
+
+/*!
+\ingroup PkgConformalEquivalenceIO
+
+draws the layout `uv` of `tm` as SVG: the triangles in 64 colours by the values of `scalar`,
+a checkerboard whose squares lie along the axes of the layout, the outline (borders and seams),
+and a legend with the colours, the least and the largest value. Corners that are not finite are
+left out. A drawing of 200 000 triangles takes about 6 MB.
+
+\tparam TriangleMesh a model of `FaceListGraph`
+\tparam HalfedgeUVMap a model of `ReadablePropertyMap` with
+        `boost::graph_traits<TriangleMesh>::%halfedge_descriptor` as key type and a `%Point_2` as value type
+\tparam FaceScalarMap a model of `ReadablePropertyMap` with
+        `boost::graph_traits<TriangleMesh>::%face_descriptor` as key type and a number as value type
+
+\param out the output stream
+\param tm a triangle mesh
+\param uv the layout: `uv[h]` is the place of the corner of `target(h, tm)` in `face(h, tm)`
+\param scalar a number for each face; numbers that are not finite are drawn at the end of the scale
+       (infinities) or in its middle (NaN)
+\param options how to draw
+
+\return `true` iff the stream is good after writing
+
+Takes linear time.
+*/
+template <typename TriangleMesh, typename HalfedgeUVMap, typename FaceScalarMap>
+bool write_SVG(std::ostream& out, const TriangleMesh& tm, HalfedgeUVMap uv, FaceScalarMap scalar,
+               const SVG_options& options = SVG_options())
+{
+  {
+    internal::Text_buffer buffer(out);
+    internal::SVG_writer<TriangleMesh, HalfedgeUVMap, FaceScalarMap>(tm, uv, scalar, options).write(buffer);
+  }
+  out.flush();
+  return out.good();
+}
+
+/// \ingroup PkgConformalEquivalenceIO
+/// writes the file `file_name`; see the function above. Returns `false`, too, if
+/// the file cannot be opened.
+template <typename TriangleMesh, typename HalfedgeUVMap, typename FaceScalarMap>
+bool write_SVG(const std::string& file_name, const TriangleMesh& tm, HalfedgeUVMap uv, FaceScalarMap scalar,
+               const SVG_options& options = SVG_options())
+{
+  std::ofstream out(file_name, std::ios::binary);
+  return out.good() && write_SVG(out, tm, uv, scalar, options);
+}
+
+} // namespace IO
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_SVG_H

@@ -1,0 +1,366 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file Intrinsic_triangulation.h
+/// A triangulated surface that knows no coordinates: triangles glued along
+/// edges, one length an edge (section 2 of Springborn, Schroeder and Pinkall,
+/// 2008: the abstract triangulation M = (V, E, T) and a discrete metric on it).
+/// Everything between import and export runs on these flat arrays.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTRINSIC_TRIANGULATION_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTRINSIC_TRIANGULATION_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/Status.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceMetric
+///
+/// An oriented triangulated surface with a length on every edge, held in flat
+/// arrays of 32-bit indices.
+///
+/// The surface is a Delta-complex: a triangle may be glued to itself, two
+/// triangles may share several edges, and an edge may begin and end at one
+/// vertex. Halfedge `3f + k` is the `k`-th side of face `f`; it runs from
+/// `origin(h)` to `target(h)` with the face on its left. A halfedge on the
+/// border has no twin; there are no halfedges outside of the surface.
+/// Vertices without a face (isolated vertices) are allowed.
+///
+/// \tparam NT_ the number type of the lengths: `double`, `long double` or a
+///         Boost.Multiprecision number.
+template <typename NT_ = double>
+class Intrinsic_triangulation
+{
+public:
+  typedef NT_ NT;               ///< number type of the lengths
+  typedef std::uint32_t Index;  ///< of vertices, halfedges, edges and faces
+
+  /// stands for "no such element".
+  static constexpr Index null_index = (std::numeric_limits<Index>::max)();
+
+  /// \name Construction
+  /// @{
+
+  Intrinsic_triangulation() = default;
+
+  /// constructs the surface with `number_of_vertices` vertices whose halfedge
+  /// `h` begins at `origin[h]` and is glued to `twin[h]` (`null_index`: border).
+  /// Edges are numbered in the order of their first halfedge; all lengths are 1.
+  /// Linear time.
+  /// \pre `origin.size() == twin.size()` is a multiple of 3; `twin` is an
+  ///      involution without fixed points; glued halfedges are opposite.
+  Intrinsic_triangulation(Index number_of_vertices, std::vector<Index> origin, std::vector<Index> twin)
+    : origin_(std::move(origin)), twin_(std::move(twin))
+  {
+    CGAL_precondition(origin_.size() == twin_.size() && origin_.size() % 3 == 0);
+    number_edges();
+    find_outgoing_halfedges(number_of_vertices);
+    length_.assign(halfedge_of_edge_.size(), NT(1));
+  }
+
+  /// returns the surface with the same triangulation and other lengths, of the
+  /// number type `Other_NT`.
+  template <typename Other_NT>
+  Intrinsic_triangulation<Other_NT> with_lengths(std::vector<Other_NT> lengths) const
+  {
+    CGAL_precondition(lengths.size() == length_.size());
+    Intrinsic_triangulation<Other_NT> result;
+    result.origin_ = origin_;
+    result.twin_ = twin_;
+    result.edge_ = edge_;
+    result.halfedge_of_edge_ = halfedge_of_edge_;
+    result.halfedge_of_vertex_ = halfedge_of_vertex_;
+    result.length_ = std::move(lengths);
+    return result;
+  }
+
+  /// @}
+  /// \name Elements
+  /// @{
+
+  Index number_of_vertices() const { return Index(halfedge_of_vertex_.size()); }
+  Index number_of_halfedges() const { return Index(origin_.size()); }
+  Index number_of_edges() const { return Index(halfedge_of_edge_.size()); }
+  Index number_of_faces() const { return Index(origin_.size() / 3); }
+
+  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  static Index face(Index h) { return h / 3; }
+
+  Index origin(Index h) const { return origin_[h]; }
+  Index target(Index h) const { return origin_[next(h)]; }
+  Index apex(Index h) const { return origin_[previous(h)]; }   ///< the vertex of the face opposite to `h`
+  Index twin(Index h) const { return twin_[h]; }               ///< `null_index` on the border
+  Index edge(Index h) const { return edge_[h]; }
+  Index edge_halfedge(Index e) const { return halfedge_of_edge_[e]; } ///< the halfedge of `e` with the smaller index
+
+  /// a halfedge that begins at `v`: for a border vertex the one on the border,
+  /// `null_index` for an isolated vertex.
+  Index vertex_halfedge(Index v) const { return halfedge_of_vertex_[v]; }
+
+  bool is_border(Index h) const { return twin_[h] == null_index; }
+  bool is_border_edge(Index e) const { return is_border(halfedge_of_edge_[e]); }
+  bool is_isolated_vertex(Index v) const { return halfedge_of_vertex_[v] == null_index; }
+  bool is_border_vertex(Index v) const { return !is_isolated_vertex(v) && is_border(halfedge_of_vertex_[v]); }
+
+  /// the next halfedge that begins at `origin(h)`, counterclockwise;
+  /// `null_index` past the last triangle of a border vertex.
+  Index next_around_origin(Index h) const { return twin_[previous(h)]; }
+
+  /// calls `visit(h)` for every halfedge that begins at `v` and has a face on
+  /// its left, counterclockwise.
+  template <typename Visit>
+  void for_each_outgoing(Index v, Visit visit) const
+  {
+    const Index first = halfedge_of_vertex_[v];
+    for(Index h = first; h != null_index; )
+    {
+      visit(h);
+      h = next_around_origin(h);
+      if(h == first)
+        break;
+    }
+  }
+
+  /// the number of triangle corners at `v`.
+  Index degree(Index v) const
+  {
+    Index result = 0;
+    for_each_outgoing(v, [&](Index) { ++result; });
+    return result;
+  }
+
+  /// the border halfedge that follows the border halfedge `h` along its border,
+  /// with the surface on the left.
+  Index next_on_border(Index h) const
+  {
+    CGAL_precondition(is_border(h));
+    return halfedge_of_vertex_[target(h)];
+  }
+
+  /// @}
+  /// \name Lengths
+  /// @{
+
+  const NT& length(Index e) const { return length_[e]; }
+  const NT& halfedge_length(Index h) const { return length_[edge_[h]]; }
+  void set_length(Index e, const NT& l) { length_[e] = l; }
+  const std::vector<NT>& lengths() const { return length_; }
+
+  /// @}
+
+private:
+  template <typename> friend class Intrinsic_triangulation;
+
+  void number_edges()
+  {
+    edge_.assign(origin_.size(), null_index);
+    for(Index h = 0; h < number_of_halfedges(); ++h)
+    {
+      if(edge_[h] != null_index)
+        continue;
+      edge_[h] = number_of_edges();
+      if(!is_border(h))
+        edge_[twin_[h]] = edge_[h];
+      halfedge_of_edge_.push_back(h);
+    }
+  }
+
+  void find_outgoing_halfedges(Index number_of_vertices)
+  {
+    halfedge_of_vertex_.assign(number_of_vertices, null_index);
+    for(Index h = 0; h < number_of_halfedges(); ++h)
+    {
+      Index& outgoing = halfedge_of_vertex_[origin_[h]];
+      if(outgoing == null_index || is_border(h))
+        outgoing = h;
+    }
+  }
+
+  std::vector<Index> origin_, twin_, edge_;   // by halfedge
+  std::vector<Index> halfedge_of_edge_;
+  std::vector<Index> halfedge_of_vertex_;
+  std::vector<NT> length_;                    // by edge
+};
+
+/// \ingroup PkgConformalEquivalenceMetric
+///
+/// returns the halfedges' twins that glue `triangles` (given by vertex indices,
+/// counterclockwise) along the sides they share, for the constructor of
+/// `Intrinsic_triangulation`. Halfedges that would be glued to more than one
+/// other, or to one of the same direction, are written to `non_manifold` and left
+/// unglued. O(n log n).
+inline std::vector<std::uint32_t> glue_triangles(const std::vector<std::array<std::uint32_t, 3> >& triangles,
+                                                 std::vector<std::uint32_t>* non_manifold = nullptr)
+{
+  typedef std::uint32_t Index;
+  const Index null_index = Intrinsic_triangulation<>::null_index;
+  struct Side { Index low, high, halfedge; };
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for(const std::array<Index, 3>& t : triangles)
+    for(int k = 0; k < 3; ++k)
+      sides.push_back({(std::min)(t[k], t[(k + 1) % 3]), (std::max)(t[k], t[(k + 1) % 3]), Index(sides.size())});
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b)
+            { return std::tie(a.low, a.high, a.halfedge) < std::tie(b.low, b.high, b.halfedge); });
+
+  std::vector<Index> twin(sides.size(), null_index);
+  for(std::size_t first = 0, last; first < sides.size(); first = last)
+  {
+    for(last = first + 1; last < sides.size() && sides[last].low == sides[first].low
+                                              && sides[last].high == sides[first].high; ++last) {}
+    const Index a = sides[first].halfedge, b = sides[last - 1].halfedge;
+    const auto origin = [&](Index h) { return triangles[h / 3][h % 3]; };
+    if(last - first == 2 && origin(a) != origin(b))
+    {
+      twin[a] = b;
+      twin[b] = a;
+    }
+    else if(last - first >= 2 && non_manifold != nullptr)
+      for(std::size_t i = first; i < last; ++i)
+        non_manifold->push_back(sides[i].halfedge);
+  }
+  return twin;
+}
+
+/// \ingroup PkgConformalEquivalenceMetric
+///
+/// The pieces that a surface is made of: its connected components, numbered in
+/// the order of their first face, with what they have of each kind.
+struct Surface_components
+{
+  std::vector<std::uint32_t> component_of_vertex;  ///< `null_index` for isolated vertices
+  struct Component
+  {
+    std::uint32_t first_face = 0;
+    std::size_t number_of_vertices = 0, number_of_edges = 0, number_of_faces = 0, number_of_borders = 0;
+    /// the Euler characteristic |T| - |E| + |V|.
+    std::ptrdiff_t euler_characteristic() const
+    {
+      return std::ptrdiff_t(number_of_faces) - std::ptrdiff_t(number_of_edges) + std::ptrdiff_t(number_of_vertices);
+    }
+    std::size_t genus() const
+    {
+      return std::size_t((2 - euler_characteristic() - std::ptrdiff_t(number_of_borders)) / 2);
+    }
+  };
+  std::vector<Component> components;
+  std::size_t number_of_isolated_vertices = 0;
+};
+
+/// \ingroup PkgConformalEquivalenceMetric
+///
+/// finds the connected components of `t`. Linear time.
+/// \pre no vertex is in `non_manifold_vertices(t)`.
+template <typename NT>
+Surface_components connected_components(const Intrinsic_triangulation<NT>& t)
+{
+  typedef typename Intrinsic_triangulation<NT>::Index Index;
+  const Index null_index = Intrinsic_triangulation<NT>::null_index;
+
+  Surface_components result;
+  std::vector<Index>& label = result.component_of_vertex;
+  label.assign(t.number_of_vertices(), null_index);
+  std::vector<Index> stack;
+  const auto enter = [&](Index v, Index component)
+  {
+    if(label[v] != null_index)
+      return;
+    label[v] = component;
+    stack.push_back(v);
+  };
+  for(Index f = 0; f < t.number_of_faces(); ++f)
+  {
+    if(label[t.origin(3 * f)] != null_index)
+      continue;
+    const Index component = Index(result.components.size());
+    result.components.emplace_back();
+    result.components.back().first_face = f;
+    enter(t.origin(3 * f), component);
+    while(!stack.empty())
+    {
+      const Index v = stack.back();
+      stack.pop_back();
+      t.for_each_outgoing(v, [&](Index h) { enter(t.target(h), component); enter(t.apex(h), component); });
+    }
+  }
+
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+  {
+    if(label[v] == null_index)
+      ++result.number_of_isolated_vertices;
+    else
+      ++result.components[label[v]].number_of_vertices;
+  }
+  for(Index f = 0; f < t.number_of_faces(); ++f)
+    ++result.components[label[t.origin(3 * f)]].number_of_faces;
+  for(Index e = 0; e < t.number_of_edges(); ++e)
+    ++result.components[label[t.origin(t.edge_halfedge(e))]].number_of_edges;
+
+  std::vector<char> seen(t.number_of_halfedges(), 0);
+  for(Index h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    if(!t.is_border(h) || seen[h])
+      continue;
+    ++result.components[label[t.origin(h)]].number_of_borders;
+    for(Index b = h; !seen[b]; b = t.next_on_border(b))
+      seen[b] = 1;
+  }
+  return result;
+}
+
+/// \ingroup PkgConformalEquivalenceMetric
+///
+/// returns the sums of what `connected_components(t)` found.
+template <typename NT>
+Surface_topology surface_topology(const Intrinsic_triangulation<NT>& t, const Surface_components& pieces)
+{
+  Surface_topology result;
+  result.number_of_vertices = t.number_of_vertices();
+  result.number_of_edges = t.number_of_edges();
+  result.number_of_faces = t.number_of_faces();
+  result.number_of_isolated_vertices = pieces.number_of_isolated_vertices;
+  result.number_of_components = pieces.components.size();
+  for(const Surface_components::Component& c : pieces.components)
+  {
+    result.number_of_borders += c.number_of_borders;
+    result.genus += c.genus();
+  }
+  return result;
+}
+
+/// \ingroup PkgConformalEquivalenceMetric
+///
+/// returns the vertices of `t` whose triangles form more than one fan (where the
+/// surface touches itself in a point). Linear time.
+template <typename NT>
+std::vector<std::uint32_t> non_manifold_vertices(const Intrinsic_triangulation<NT>& t)
+{
+  typedef typename Intrinsic_triangulation<NT>::Index Index;
+  std::vector<Index> corners(t.number_of_vertices(), 0), result;
+  for(Index h = 0; h < t.number_of_halfedges(); ++h)
+    ++corners[t.origin(h)];
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(t.degree(v) != corners[v])
+      result.push_back(v);
+  return result;
+}
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTRINSIC_TRIANGULATION_H

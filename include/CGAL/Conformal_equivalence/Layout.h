@@ -1,0 +1,79 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file Layout.h
+/// A flat surface laid out in the plane (section 3.3 of Springborn, Schroeder and
+/// Pinkall, 2008), and how the result is placed there.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_LAYOUT_H
+#define CGAL_CONFORMAL_EQUIVALENCE_LAYOUT_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceLayout
+///
+/// The motion z -> rotation * z + translation, in complex numbers, that takes one
+/// side of a cut edge to the other: `halfedge`, as laid out with its face, to its
+/// twin, as laid out with the other face.
+template <typename NT = double>
+struct Transition
+{
+  std::uint32_t halfedge;            ///< the one with the smaller index
+  std::array<NT, 2> rotation;        ///< of absolute value 1
+  std::array<NT, 2> translation;
+};
+
+/// \ingroup PkgConformalEquivalenceLayout
+///
+/// A point of the plane for every corner of a triangulation.
+template <typename NT_ = double>
+struct Layout
+{
+  typedef NT_ NT;
+
+  /// by halfedge `h` of the input triangulation: where `target(h)` lies in the
+  /// triangle of `h`. Corners of a vertex that no cut separates are equal.
+  std::vector<std::array<NT, 2> > corner;
+  /// largest relative difference of an edge's length, as laid out and rounded, from its length in the metric
+  double length_error = 0;
+  std::vector<Transition<NT> > transitions;  ///< one for every cut edge
+  /// `OK`, or `WRONG_TOPOLOGY`: the surface or what the cuts leave of it is not connected
+  Status status = Status::OK;
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// How a layout is placed in the plane. Orientation is always kept.
+enum class Layout_frame
+{
+  CANONICAL,   ///< not scaled; barycentre of the area in the origin, longest principal axis horizontal
+  UNIT_SQUARE  ///< as `CANONICAL`, then scaled and moved to fit into [0, 1] x [0, 1], touching both axes
+};
+
+/// \ingroup PkgConformalEquivalenceLayout
+///
+/// The frame in which two vertices lie at given points: the value of the named
+/// parameter `layout_frame` instead of a `Layout_frame`.
+/// \tparam Vertex a vertex descriptor, or `std::uint32_t` for an `Intrinsic_triangulation`
+template <typename Vertex>
+struct Pinned_frame
+{
+  Vertex first;
+  std::array<double, 2> first_point;
+  Vertex second;
+  std::array<double, 2> second_point;
+};
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_LAYOUT_H

@@ -1,0 +1,283 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file Status.h
+/// How the functions of this package say what happened: a status, the amount by
+/// which something failed, the elements at fault, and statistics of the run.
+/// Nothing that depends on the user's data is an exception or an assertion.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_STATUS_H
+#define CGAL_CONFORMAL_EQUIVALENCE_STATUS_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Surface_mesh_parameterization/Error_code.h>
+
+#include <boost/graph/graph_traits.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// What became of a computation.
+enum class Status
+{
+  OK,                    ///< done: every angle sum is within `gradient_tolerance` of its target
+  CONVERGED_TO_ROUNDING, ///< done as far as the number type can tell: `amount` is the residual reached (radians)
+  EMPTY_MESH,            ///< the mesh has no face
+  NOT_TRIANGULATED,      ///< `faces` are no triangles
+  NON_MANIFOLD,          ///< the faces at `vertices` form more than one fan
+  INVALID_NUMBER,        ///< a coordinate, length or condition of the elements named is not a finite number, or a length is negative
+  ZERO_LENGTH_EDGE,      ///< `edges` have length zero (coincident points)
+  WRONG_TOPOLOGY,        ///< the surface is not of the kind that this function takes; see `Flattening_report::topology`
+  GAUSS_BONNET_VIOLATED, ///< the prescribed angles leave `amount` (radians) too much or too little
+  ANGLE_OUT_OF_RANGE,    ///< the angle prescribed at `vertices` cannot occur there; `amount` is the first one (radians)
+  MISSING_CONDITION,     ///< `vertices` lack a condition that the function needs
+  SINGULAR_PROBLEM,      ///< the linear system could not be factorized
+  ITERATIONS_EXHAUSTED,  ///< not converged; `amount` is the residual (radians), `faces` the triangles broken at that point
+  DEGENERATE_METRIC,     ///< the minimizer violates the triangle inequality in `faces`
+  NOT_INJECTIVE,         ///< the layout flips `faces`, or its border crosses itself
+  STOPPED_BY_VISITOR,    ///< the visitor asked to stop
+  OUT_OF_MEMORY,         ///< memory was exhausted
+  NOT_AVAILABLE          ///< an option was asked for that this version does not have
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// returns `true` iff `status` stands for a usable result.
+constexpr bool is_success(Status status)
+{
+  return status == Status::OK || status == Status::CONVERGED_TO_ROUNDING;
+}
+
+namespace internal {
+
+struct Status_entry
+{
+  Status status;
+  const char* text;
+  Surface_mesh_parameterization::Error_code error_code;
+};
+
+// The one table of statuses: what they say, and what CGAL's parameterizers call
+// them. In the order of the enumeration.
+inline const std::array<Status_entry, 18>& status_table()
+{
+  namespace SMP = Surface_mesh_parameterization;
+  static const std::array<Status_entry, 18> table = {{
+    { Status::OK, "success", SMP::OK },
+    { Status::CONVERGED_TO_ROUNDING, "converged to the rounding of the number type", SMP::OK },
+    { Status::EMPTY_MESH, "the mesh has no face", SMP::ERROR_EMPTY_MESH },
+    { Status::NOT_TRIANGULATED, "the mesh has faces that are not triangles", SMP::ERROR_NON_TRIANGULAR_MESH },
+    { Status::NON_MANIFOLD, "the mesh is not a manifold", SMP::ERROR_WRONG_PARAMETER },
+    { Status::INVALID_NUMBER, "the mesh or the conditions hold an invalid number", SMP::ERROR_WRONG_PARAMETER },
+    { Status::ZERO_LENGTH_EDGE, "the mesh has edges of length zero", SMP::ERROR_WRONG_PARAMETER },
+    { Status::WRONG_TOPOLOGY, "the surface has the wrong topology", SMP::ERROR_NO_TOPOLOGICAL_DISC },
+    { Status::GAUSS_BONNET_VIOLATED, "the prescribed angles violate the Gauss-Bonnet formula", SMP::ERROR_WRONG_PARAMETER },
+    { Status::ANGLE_OUT_OF_RANGE, "a prescribed angle is out of range", SMP::ERROR_WRONG_PARAMETER },
+    { Status::MISSING_CONDITION, "a condition is missing", SMP::ERROR_BORDER_TOO_SHORT },
+    { Status::SINGULAR_PROBLEM, "the linear system cannot be factorized", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM },
+    { Status::ITERATIONS_EXHAUSTED, "the iteration did not converge", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM },
+    { Status::DEGENERATE_METRIC, "the metric violates the triangle inequality", SMP::ERROR_NO_1_TO_1_MAPPING },
+    { Status::NOT_INJECTIVE, "the map is not injective", SMP::ERROR_NO_1_TO_1_MAPPING },
+    { Status::STOPPED_BY_VISITOR, "stopped by the visitor", SMP::ERROR_WRONG_PARAMETER },
+    { Status::OUT_OF_MEMORY, "out of memory", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM },
+    { Status::NOT_AVAILABLE, "this version does not have the option asked for", SMP::ERROR_WRONG_PARAMETER }
+  }};
+  return table;
+}
+
+inline const Status_entry& status_entry(Status status)
+{
+  return status_table()[static_cast<std::size_t>(status)];
+}
+
+} // namespace internal
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// returns a short English text for `status`.
+inline std::string message(Status status) { return internal::status_entry(status).text; }
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// returns the error code by which \cgal's parameterizers report `status`.
+/// (\cgal's own `get_error_message()` is out of step with these codes: use `message()`.)
+inline Surface_mesh_parameterization::Error_code to_error_code(Status status)
+{
+  return internal::status_entry(status).error_code;
+}
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// What a surface is made of, as found on import.
+struct Surface_topology
+{
+  std::size_t number_of_vertices = 0;          ///< isolated ones included
+  std::size_t number_of_edges = 0;
+  std::size_t number_of_faces = 0;
+  std::size_t number_of_isolated_vertices = 0; ///< vertices without a face: carried through untouched
+  std::size_t number_of_components = 0;        ///< of the faces
+  std::size_t number_of_borders = 0;           ///< border cycles
+  std::size_t genus = 0;                       ///< sum over the components
+
+  /// returns `true` iff the surface is one topological disk, apart from isolated vertices.
+  bool is_disk() const
+  {
+    return number_of_components == 1 && number_of_borders == 1 && genus == 0;
+  }
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// Figures of one run of the solver.
+struct Statistics
+{
+  /// Wall-clock seconds by stage; zero for stages that did not run.
+  struct Seconds { double import = 0, solve = 0, cut = 0, layout = 0, verify = 0; };
+
+  std::size_t number_of_iterations = 0;        ///< Newton steps: linearizations with an accepted step
+  std::size_t number_of_linear_iterations = 0; ///< iterations of the preconditioned conjugate gradient method
+  std::size_t number_of_factorizations = 0;    ///< numeric factorizations
+  std::size_t number_of_evaluations = 0;       ///< evaluations of the gradient
+  std::size_t number_of_flips = 0;             ///< edges flipped
+  double residual = 0;                         ///< largest difference of an angle sum from its target (radians)
+  double residual_floor = 0;                   ///< below it `double` cannot tell a residual from rounding (radians)
+  double angle_defect_spread = 0;              ///< total angle added to inexact targets to meet Gauss-Bonnet (radians)
+  std::size_t number_of_regularized_rows = 0;  ///< zero rows of the Hessian that had to be regularized
+  std::vector<double> residuals;               ///< the residual before each Newton step, and at the end
+  Seconds seconds;
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// What a function of this package reports about a mesh.
+template <typename TriangleMesh>
+struct [[nodiscard]] Flattening_report
+{
+  typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor;
+  typedef typename boost::graph_traits<TriangleMesh>::edge_descriptor   edge_descriptor;
+  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor   face_descriptor;
+
+  Status status = Status::OK;
+  /// How much: see the documentation of the status.
+  double amount = 0;
+
+  /// \name Elements at fault
+  /// Each with its position in `vertices(tm)` and `faces(tm)`; an edge is named
+  /// by the positions of its two vertices.
+  /// @{
+  std::vector<vertex_descriptor> vertices;
+  std::vector<edge_descriptor> edges;
+  std::vector<face_descriptor> faces;
+  std::vector<std::size_t> vertex_indices;
+  std::vector<std::array<std::size_t, 2> > edge_indices;
+  std::vector<std::size_t> face_indices;
+  /// @}
+
+  Surface_topology topology;
+  Statistics statistics;
+  /// Largest relative difference of an edge length in the layout from the length
+  /// that the metric gives it; zero if nothing was laid out.
+  double layout_length_error = 0;
+
+  /// is `true` iff the result is usable.
+  explicit operator bool() const { return is_success(status); }
+};
+
+namespace internal {
+
+template <typename Range, typename Print>
+void print_elements(std::ostream& out, const char* singular, const char* plural,
+                    const Range& elements, Print print)
+{
+  if(elements.empty())
+    return;
+  const std::size_t shown = (std::min)(elements.size(), std::size_t(10));
+  out << "; " << (elements.size() == 1 ? singular : plural);
+  for(std::size_t i = 0; i < shown; ++i)
+    print(out << (i == 0 ? " " : ", "), elements[i]);
+  if(shown < elements.size())
+    out << ", ... (" << elements.size() << " in all)";
+}
+
+inline void print_topology(std::ostream& out, const Surface_topology& topology)
+{
+  const auto count = [&](std::size_t n, const char* what) { out << n << ' ' << what << (n == 1 ? "" : "s"); };
+  out << ": found ";
+  count(topology.number_of_components, "component");
+  out << ", ";
+  count(topology.number_of_borders, "border");
+  out << ", genus " << topology.genus;
+}
+
+inline void print_amount(std::ostream& out, Status status, double amount)
+{
+  switch(status)
+  {
+    case Status::CONVERGED_TO_ROUNDING:
+    case Status::ITERATIONS_EXHAUSTED:  out << ": residual " << amount << " radians"; break;
+    case Status::GAUSS_BONNET_VIOLATED: out << " by " << amount << " radians"; break;
+    case Status::ANGLE_OUT_OF_RANGE:    out << ": " << amount << " radians"; break;
+    default: break;
+  }
+}
+
+} // namespace internal
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// returns one line of English that says what happened, by how much, and where
+/// (elements by position, the first ten of each kind).
+template <typename TriangleMesh>
+std::string message(const Flattening_report<TriangleMesh>& report)
+{
+  std::ostringstream out;
+  out << message(report.status);
+  internal::print_amount(out, report.status, report.amount);
+  if(report.status == Status::WRONG_TOPOLOGY)
+    internal::print_topology(out, report.topology);
+  internal::print_elements(out, "vertex", "vertices", report.vertex_indices,
+                           [](std::ostream& o, std::size_t v) { o << v; });
+  internal::print_elements(out, "edge", "edges", report.edge_indices,
+                           [](std::ostream& o, const std::array<std::size_t, 2>& e) { o << e[0] << '-' << e[1]; });
+  internal::print_elements(out, "face", "faces", report.face_indices,
+                           [](std::ostream& o, std::size_t f) { o << f; });
+  return out.str();
+}
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// Whether the triangulation may be changed on the way to the metric.
+enum class Retriangulation
+{
+  NEVER,       ///< the fixed triangulation of the paper; the minimizer may be no metric
+  WHEN_NEEDED, ///< the fixed triangulation first, Ptolemy flips only if it has no solution
+  ALWAYS       ///< intrinsic Delaunay triangulation first: the result depends on the surface alone
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// How Newton's method is made globally convergent.
+enum class Newton_strategy
+{
+  LINE_SEARCH,  ///< inexact Newton steps, line search on the directional derivative
+  TRUST_REGION  ///< Newton-Steihaug: truncated conjugate gradients in a trust region
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// What a visitor is told that begins.
+enum class Stage { IMPORT, SOLVE, CUT, LAYOUT, VERIFY };
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// The visitor that does nothing: model of `ConformalEquivalenceVisitor`.
+struct Default_visitor
+{
+  void on_stage(Stage) {}
+  void on_iteration(std::size_t /* iteration */, double /* residual */) {}
+  bool go_further() { return true; }
+};
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_STATUS_H

@@ -1,0 +1,223 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file boundary_conditions.h
+/// Conditions on a mesh: how borders and cones are described by property maps, and
+/// functions that fill such maps (sections 4.1, 4.2 and 5 of Springborn, Schroeder and
+/// Pinkall, 2008).
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_BOUNDARY_CONDITIONS_H
+#define CGAL_CONFORMAL_EQUIVALENCE_BOUNDARY_CONDITIONS_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/internal/rectangle_corners.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+
+#include <CGAL/assertions.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/number_utils.h>
+
+#include <boost/graph/graph_traits.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceSolver
+///
+/// reads the conditions at the vertices of an imported mesh from property maps.
+///
+/// \param mesh the mesh, with status `OK`
+/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+/// \param missing receives the unconstrained border vertices for which there is no angle, because
+///        `vertex_is_constrained_map` is given and `border_angle_map` is not
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{border_angle_map}
+///     \cgalParamDescription{the angle sums at border vertices, in radians: pi is straight}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to `double`}
+///     \cgalParamDefault{none: the border is natural, it keeps its lengths}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{cone_angle_map}
+///     \cgalParamDescription{the angle sums at interior vertices, in radians}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to `double`}
+///     \cgalParamDefault{2 pi everywhere}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{vertex_is_constrained_map}
+///     \cgalParamDescription{`true` where the logarithmic scale factor u is fixed, and the angle free}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type `bool`}
+///     \cgalParamDefault{`true` at border vertices if `border_angle_map` is absent, `false` everywhere otherwise}
+///     \cgalParamExtra{If it is given, it alone decides.}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{prescribed_log_scale_factor_map}
+///     \cgalParamDescription{u where it is fixed}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to `double`}
+///     \cgalParamDefault{0 everywhere}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
+///
+/// \return the conditions. Linear time.
+template <typename TriangleMesh, typename NT, typename NamedParameters = parameters::Default_named_parameters>
+Conformal_conditions<NT> read_conditions(const Imported_mesh<TriangleMesh, NT>& mesh,
+                                         std::vector<std::uint32_t>& missing,
+                                         const NamedParameters& np = parameters::default_values())
+{
+  using parameters::get_parameter;
+  using parameters::is_default_parameter;
+  constexpr bool has_border_angles = !is_default_parameter<NamedParameters, internal_np::conformal_border_angle_t>::value;
+  constexpr bool has_cone_angles = !is_default_parameter<NamedParameters, internal_np::conformal_cone_angle_t>::value;
+  constexpr bool has_constraints = !is_default_parameter<NamedParameters, internal_np::vertex_is_constrained_t>::value;
+  constexpr bool has_prescribed_u = !is_default_parameter<NamedParameters, internal_np::conformal_prescribed_u_t>::value;
+
+  const Intrinsic_triangulation<NT>& t = mesh.triangulation;
+  Conformal_conditions<NT> conditions(t);
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+  {
+    if(t.is_isolated_vertex(v))
+      continue;
+    const auto vd = mesh.vertex(v);
+    const bool is_border = t.is_border_vertex(v);
+    bool is_fixed = is_border && !has_border_angles;
+    if constexpr(has_constraints)
+      is_fixed = get(get_parameter(np, internal_np::vertex_is_constrained), vd);
+
+    if(is_fixed)
+    {
+      NT u(0);
+      if constexpr(has_prescribed_u)
+        u = NT(get(get_parameter(np, internal_np::conformal_prescribed_u), vd));
+      conditions.fix_log_scale_factor(v, u);
+    }
+    else if(is_border)
+    {
+      if constexpr(has_border_angles)
+        conditions.prescribe_angle_sum(v, NT(get(get_parameter(np, internal_np::conformal_border_angle), vd)));
+      else
+        missing.push_back(v);
+    }
+    else
+    {
+      if constexpr(has_cone_angles)
+        conditions.prescribe_angle_sum(v, NT(get(get_parameter(np, internal_np::conformal_cone_angle), vd)));
+      else
+        conditions.prescribe_angle_sum(v, Exact_angle<NT>::pi_times(2));
+    }
+  }
+  return conditions;
+}
+
+/// \ingroup PkgConformalEquivalenceSolver
+///
+/// writes the border angles of a rectangle: pi / 2 at the four corners, pi at the other
+/// vertices of the border on which `corners[0]` lies. Linear in the length of that border.
+///
+/// \param tm a triangle mesh
+/// \param corners four different vertices of one border
+/// \param border_angle_map a writable property map with key type
+///        `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type `double` (radians)
+///
+/// \pre `corners[0]` is a border vertex.
+template <typename TriangleMesh, typename VertexAngleMap>
+void prescribe_rectangle(const TriangleMesh& tm,
+                         const std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4>& corners,
+                         VertexAngleMap border_angle_map)
+{
+  typedef typename boost::graph_traits<TriangleMesh>::halfedge_descriptor halfedge_descriptor;
+  halfedge_descriptor first = halfedge(corners[0], tm);
+  for(halfedge_descriptor h : halfedges_around_target(corners[0], tm))
+    if(is_border(h, tm))
+      first = h;
+  CGAL_precondition(is_border(first, tm));
+
+  halfedge_descriptor h = first;
+  do
+  {
+    const bool is_corner = std::find(corners.begin(), corners.end(), target(h, tm)) != corners.end();
+    put(border_angle_map, target(h, tm), is_corner ? CGAL_PI / 2 : CGAL_PI);
+    h = next(h, tm);
+  }
+  while(h != first);
+}
+
+/// \ingroup PkgConformalEquivalenceSolver
+///
+/// chooses the corners for a rectangle with little distortion. Border vertices with one
+/// triangle must be corners. The others are chosen among the vertices of extreme turning of the
+/// natural map's border, so that the Dirichlet energy of u (App. E) is least: first exactly for the
+/// linearized problem (12), by trying all choices; then, by solving, corners are exchanged until no single
+/// exchange that the linearized problem does not rule out improves the energy.
+///
+/// Time is that of one factorization each for the natural and the straight border, and of some
+/// dozens of solutions with a kept factor.
+///
+/// \param tm a triangle mesh
+/// \param bhd a halfedge of the border of a topological disk
+/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{vertex_point_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
+///   \cgalParamNBegin{edge_length_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
+///   \cgalParamNBegin{flattening_report}
+///     \cgalParamDescription{is told why there are no corners: statuses of `import_mesh()`, `WRONG_TOPOLOGY`,
+///       `MISSING_CONDITION` (fewer than four border vertices), `ANGLE_OUT_OF_RANGE` (more than four
+///       border vertices with a single triangle, which cannot be straight)}
+///     \cgalParamType{`std::reference_wrapper<Flattening_report<TriangleMesh> >`}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
+///
+/// \return the corners in their order along the border (as halfedges `next(bhd)` run); four null vertices if there are none.
+template <typename TriangleMesh, typename NamedParameters = parameters::Default_named_parameters>
+std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4>
+select_rectangle_corners(const TriangleMesh& tm,
+                         typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd,
+                         const NamedParameters& np = parameters::default_values())
+{
+  using parameters::get_parameter;
+  typedef boost::graph_traits<TriangleMesh> Graph_traits;
+  CGAL_precondition(is_border(bhd, tm));
+
+  Flattening_report<TriangleMesh> report;
+  std::array<typename Graph_traits::vertex_descriptor, 4> corners;
+  corners.fill(Graph_traits::null_vertex());
+
+  const Imported_mesh<TriangleMesh> mesh = import_mesh(tm, np);
+  report.status = mesh.status;
+  internal::name_elements(mesh, mesh.faulty_vertices, mesh.faulty_edges, mesh.faulty_faces, report);
+  if(is_success(report.status))
+  {
+    report.topology = surface_topology(mesh.triangulation, connected_components(mesh.triangulation));
+    if(!report.topology.is_disk())
+      report.status = Status::WRONG_TOPOLOGY;
+  }
+  if(is_success(report.status))
+  {
+    const std::uint32_t first = mesh.triangulation.next_on_border(mesh.index_of_halfedge(opposite(bhd, tm)));
+    const internal::Rectangle_corners found = internal::select_rectangle_corners(mesh.triangulation, first);
+    report.status = found.status;
+    report.amount = found.amount;
+    internal::name_elements(mesh, found.vertices, {}, {}, report);
+    if(is_success(found.status))
+      for(int k = 0; k < 4; ++k)
+        corners[k] = mesh.vertex(found.corners[3 - k]); // CGAL's border halfedges run the other way
+  }
+  if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_report_t>::value)
+    get_parameter(np, internal_np::conformal_report).get() = report;
+  return corners;
+}
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_BOUNDARY_CONDITIONS_H

@@ -1,0 +1,457 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file compute_conformal_metric.h
+/// The heart: conditions in, metric out. Finds, within the conformal class of a
+/// metric, the one with prescribed angle sums at some vertices and prescribed scale
+/// factors at the others (Problem in section 2.1, sections 3.1 and 4 of Springborn,
+/// Schroeder and Pinkall, 2008).
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_COMPUTE_CONFORMAL_METRIC_H
+#define CGAL_CONFORMAL_EQUIVALENCE_COMPUTE_CONFORMAL_METRIC_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/energy.h>
+#include <CGAL/Conformal_equivalence/internal/feasibility.h>
+#include <CGAL/Conformal_equivalence/internal/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/newton.h>
+#include <CGAL/Conformal_equivalence/internal/solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+
+#include <CGAL/Default.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceSolver
+///
+/// Solves for conformally equivalent metrics of one surface, again and again:
+/// triangulation, ordering, pattern and factor are kept, and every solve begins at
+/// the last solution. As long as the same vertices are free, changed conditions need
+/// no new factor.
+///
+/// The method is Newton's on the convex energy E (equations (7) to (10)), extended as
+/// in section 3.1 to lengths that violate the triangle inequality. A *Newton step* is
+/// one linearization with an accepted step; its linear system is solved by conjugate
+/// gradients, preconditioned by a factor of the Hessian at the first metric. The last
+/// residual is measured and reduced in a wider number type.
+///
+/// Copies of solver traits of \ref thirdpartyEigen "Eigen" share one factor: give every solver its own.
+///
+/// \tparam NT_ number type of the lengths: `double`, `long double`, or a Boost.Multiprecision binary
+///         floating-point number. The linear algebra runs in `double` for all of them.
+/// \tparam SolverTraits_ a model of `SparseLinearAlgebraWithFactorTraits_d` for symmetric
+///         matrices of `double`, best one of `SparseLinearAlgebraWithPatternTraits_d`;
+///         the default is `Default_solver_traits`.
+template <typename NT_ = double, typename SolverTraits_ = Default>
+class Conformal_metric_solver
+{
+public:
+  typedef NT_ NT;
+  typedef typename Default::Get<SolverTraits_, Default_solver_traits>::type Solver_traits;
+  typedef Intrinsic_triangulation<NT> Triangulation;
+  typedef typename Triangulation::Index Index;
+  typedef Conformal_metric<NT> Metric;
+  typedef typename Metric::Wide_number Wide_number;
+
+  /// takes the surface. Its lengths need not satisfy the triangle inequality. Linear time.
+  /// \pre all lengths are positive and finite; no vertex is in `non_manifold_vertices(t)`.
+  explicit Conformal_metric_solver(Triangulation t, Solver_traits traits = Solver_traits())
+    : triangulation_(std::move(t)),
+      pieces_(connected_components(triangulation_)),
+      linear_(traits)
+  {
+    linear_.set_edges(triangulation_);
+  }
+
+  // `linear_` refers to nothing here, but a copy would share its factor
+  Conformal_metric_solver(const Conformal_metric_solver&) = delete;
+  Conformal_metric_solver& operator=(const Conformal_metric_solver&) = delete;
+
+  const Triangulation& triangulation() const { return triangulation_; }
+  const Surface_components& components() const { return pieces_; }
+
+  /// finds the metric with the given conditions. Where no u is fixed on a component, the sum of
+  /// its u is zero. Everything is decided by convexity: the solution is unique.
+  ///
+  /// Time is that of one sparse Cholesky factorization (none if the last one serves) and of
+  /// a few dozen solves and linear passes.
+  ///
+  /// \param conditions one per vertex of the triangulation
+  /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+  ///
+  /// \cgalNamedParamsBegin
+  ///   \cgalParamNBegin{gradient_tolerance}
+  ///     \cgalParamDescription{the largest difference of an angle sum from its target, in radians}
+  ///     \cgalParamType{`double`}
+  ///     \cgalParamDefault{`1e-12`}
+  ///   \cgalParamNEnd
+  ///   \cgalParamNBegin{number_of_iterations}
+  ///     \cgalParamDescription{the maximum number of Newton steps}
+  ///     \cgalParamType{`unsigned int`}
+  ///     \cgalParamDefault{`100`}
+  ///   \cgalParamNEnd
+  ///   \cgalParamNBegin{newton_strategy}
+  ///     \cgalParamDescription{how steps are kept from going too far}
+  ///     \cgalParamType{`Newton_strategy`}
+  ///     \cgalParamDefault{`Newton_strategy::LINE_SEARCH`}
+  ///   \cgalParamNEnd
+  ///   \cgalParamNBegin{retriangulation}
+  ///     \cgalParamDescription{whether edges may be flipped. This version has `NEVER` only.}
+  ///     \cgalParamType{`Retriangulation`}
+  ///     \cgalParamDefault{`Retriangulation::NEVER`}
+  ///   \cgalParamNEnd
+  ///   \cgalParamNBegin{initial_log_scale_factor_map}
+  ///     \cgalParamDescription{where to begin, instead of at the last solution}
+  ///     \cgalParamType{a readable property map with key type `std::uint32_t` and a value type convertible to `double`}
+  ///     \cgalParamDefault{the last solution; at first the discretely harmonic extension of the fixed u}
+  ///   \cgalParamNEnd
+  ///   \cgalParamNBegin{visitor}
+  ///     \cgalParamDescription{is told the progress and may stop it; `std::ref` of it if it is to be changed}
+  ///     \cgalParamType{a model of `ConformalEquivalenceVisitor`}
+  ///     \cgalParamDefault{`Default_visitor`}
+  ///   \cgalParamNEnd
+  /// \cgalNamedParamsEnd
+  ///
+  /// \return the metric, with a status:
+  ///  - `OK`, `CONVERGED_TO_ROUNDING`;
+  ///  - `EMPTY_MESH`, `INVALID_NUMBER` (vertices), `ANGLE_OUT_OF_RANGE` (vertices),
+  ///    `GAUSS_BONNET_VIOLATED`: the conditions have no solution, nothing was computed;
+  ///  - `DEGENERATE_METRIC`: the minimizer was found, but is no metric: `faces` violate the
+  ///    triangle inequality, decided exactly;
+  ///  - `ITERATIONS_EXHAUSTED` (`amount`: the residual; `faces`: the triangles broken there),
+  ///    `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`, `OUT_OF_MEMORY`, `NOT_AVAILABLE`.
+  template <typename NamedParameters = parameters::Default_named_parameters>
+  Metric solve(const Conformal_conditions<NT>& conditions, const NamedParameters& np = parameters::default_values()) &
+  {
+    Metric result = run(conditions, np);
+    result.triangulation = triangulation_;
+    return result;
+  }
+
+  /// the same, for a solver that is not needed any more.
+  template <typename NamedParameters = parameters::Default_named_parameters>
+  Metric solve(const Conformal_conditions<NT>& conditions, const NamedParameters& np = parameters::default_values()) &&
+  {
+    Metric result = run(conditions, np);
+    energy_.reset();
+    result.triangulation = std::move(triangulation_);
+    return result;
+  }
+
+private:
+  typedef internal::Vertex_vector Vertex_vector;
+  typedef internal::Conformal_energy<double, NT> Energy;
+
+  template <typename NamedParameters>
+  Metric run(const Conformal_conditions<NT>& conditions, const NamedParameters& np)
+  {
+    using parameters::choose_parameter;
+    using parameters::get_parameter;
+
+    const internal::Stopwatch stopwatch;
+    Metric result;
+    if(choose_parameter(get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::NEVER)
+       != Retriangulation::NEVER)
+    {
+      result.status = Status::NOT_AVAILABLE;
+      return result;
+    }
+
+    internal::Newton_options options;
+    options.tolerance = choose_parameter(get_parameter(np, internal_np::conformal_gradient_tolerance), 1e-12);
+    options.number_of_iterations = choose_parameter(get_parameter(np, internal_np::number_of_iterations), 100u);
+    options.strategy = choose_parameter(get_parameter(np, internal_np::conformal_newton_strategy),
+                                        Newton_strategy::LINE_SEARCH);
+    auto visitor = choose_parameter<Default_visitor>(get_parameter(np, internal_np::visitor));
+    const auto initial = get_parameter(np, internal_np::conformal_initial_u);
+
+    try
+    {
+      solve(conditions, initial, options, internal::unwrap(visitor), result);
+    }
+    catch(const std::bad_alloc&)
+    {
+      result = Metric();
+      result.status = Status::OUT_OF_MEMORY;
+    }
+    result.statistics.seconds.solve = stopwatch.seconds();
+    return result;
+  }
+
+  template <typename Initial, typename Visitor>
+  void solve(Conformal_conditions<NT> conditions, const Initial& initial,
+             const internal::Newton_options& options, Visitor& visitor, Metric& result)
+  {
+    visitor.on_stage(Stage::SOLVE);
+    if(!check(conditions, result))
+      return;
+    if(!energy_)
+      energy_ = std::make_unique<Energy>(triangulation_, true);
+    linear_.set_free(free_vertices(conditions));
+    const std::size_t factorizations_before = linear_.number_of_factorizations();
+
+    Vertex_vector u;
+    result.status = first_guess(conditions, initial, u) ? Status::OK : Status::SINGULAR_PROBLEM;
+    if(result.status == Status::OK)
+    {
+      const Vertex_vector target = targets(conditions);
+      internal::Newton_method<Energy, Solver_traits, Visitor>
+        newton(*energy_, linear_, target, options, result.statistics, visitor);
+      result.status = newton(u);
+    }
+    if(result.status == Status::OK)
+      refine(conditions, u, options.tolerance, result);
+    result.statistics.number_of_factorizations = linear_.number_of_factorizations() - factorizations_before;
+    result.statistics.number_of_regularized_rows = linear_.number_of_regularized_rows();
+    judge(result);
+  }
+
+  bool check(Conformal_conditions<NT>& conditions, Metric& result) const
+  {
+    CGAL_precondition(conditions.size() == triangulation_.number_of_vertices());
+    if(triangulation_.number_of_faces() == 0)
+    {
+      result.status = Status::EMPTY_MESH;
+      return false;
+    }
+    const internal::Feasibility feasibility = internal::make_feasible(triangulation_, pieces_, conditions);
+    result.status = feasibility.status;
+    result.amount = feasibility.amount;
+    result.vertices = feasibility.vertices;
+    result.statistics.angle_defect_spread = feasibility.angle_defect_spread;
+    return feasibility.status == Status::OK;
+  }
+
+  // The vertices at which u is unknown. Where a component has no fixed u, its first vertex is held,
+  // which changes nothing but the scale.
+  std::vector<char> free_vertices(const Conformal_conditions<NT>& conditions)
+  {
+    std::vector<char> free(triangulation_.number_of_vertices(), 0);
+    std::vector<char> has_fixed(pieces_.components.size(), 0);
+    for(Index v = 0; v < triangulation_.number_of_vertices(); ++v)
+    {
+      if(triangulation_.is_isolated_vertex(v))
+        continue;
+      free[v] = conditions.is_fixed(v) ? 0 : 1;
+      if(conditions.is_fixed(v))
+        has_fixed[pieces_.component_of_vertex[v]] = 1;
+    }
+    for(std::size_t c = 0; c < has_fixed.size(); ++c)
+      if(!has_fixed[c])
+        free[triangulation_.origin(3 * pieces_.components[c].first_face)] = 0;
+    floating_.assign(has_fixed.size(), 0);
+    for(std::size_t c = 0; c < has_fixed.size(); ++c)
+      floating_[c] = has_fixed[c] ? 0 : 1;
+    return free;
+  }
+
+  Vertex_vector targets(const Conformal_conditions<NT>& conditions) const
+  {
+    Vertex_vector result(triangulation_.number_of_vertices(), 0.);
+    for(Index v = 0; v < result.size(); ++v)
+      if(!conditions.is_fixed(v))
+        result[v] = conditions.angle_sum(v).template radians<double>();
+    return result;
+  }
+
+  // The given u, else the last solution; at first the harmonic extension of the fixed u. The
+  // factor, if there is none, is that of the Hessian at u = 0.
+  template <typename Initial>
+  bool first_guess(const Conformal_conditions<NT>& conditions, const Initial& initial, Vertex_vector& u)
+  {
+    const bool has_last = !last_u_.empty();
+    u = has_last ? last_u_ : Vertex_vector(triangulation_.number_of_vertices(), 0.);
+    if constexpr(!std::is_same<std::decay_t<Initial>, internal_np::Param_not_found>::value)
+      for(Index v = 0; v < u.size(); ++v)
+        u[v] = static_cast<double>(get(initial, v));
+
+    Vertex_vector step(u.size(), 0.); // at the fixed vertices
+    for(Index v = 0; v < u.size(); ++v)
+      if(conditions.is_fixed(v) && !triangulation_.is_isolated_vertex(v))
+        step[v] = static_cast<double>(conditions.log_scale_factor(v)) - u[v];
+    const bool is_moved = internal::largest_entry(step) > 0;
+    if(internal::largest_entry(u) == 0 && !is_moved)
+      return true; // the first Newton step will factorize
+    if(!linear_.has_factor())
+    {
+      energy_->evaluate(Vertex_vector(u.size(), 0.));
+      if(!linear_.factorize(energy_->weights()))
+        return false;
+    }
+    if(!is_moved)
+      return true;
+
+    Vertex_vector pull, extension;
+    energy_->evaluate(Vertex_vector(u.size(), 0.));
+    pull = linear_.graph().product(energy_->weights(), step);
+    for(double& x : pull)
+      x = -x;
+    if(!linear_.precondition(pull, extension))
+      return false;
+    for(Index v = 0; v < u.size(); ++v)
+      u[v] += step[v] + extension[v];
+    return true;
+  }
+
+  // Moves u on every component without a fixed vertex so that its sum is zero.
+  void center(Vertex_vector& u) const
+  {
+    Vertex_vector sum(pieces_.components.size(), 0.);
+    for(Index v = 0; v < u.size(); ++v)
+      if(!triangulation_.is_isolated_vertex(v))
+        sum[pieces_.component_of_vertex[v]] += u[v];
+    for(Index v = 0; v < u.size(); ++v)
+    {
+      const Index c = pieces_.component_of_vertex[v];
+      if(!triangulation_.is_isolated_vertex(v) && floating_[c])
+        u[v] -= sum[c] / double(pieces_.components[c].number_of_vertices);
+    }
+  }
+
+  // The last steps, with the residual in the wide type and the linear systems in double.
+  // A step with error e^3 in s is as good as any: what counts is the s that comes out.
+  void refine(const Conformal_conditions<NT>& conditions, Vertex_vector& u, double tolerance, Metric& result)
+  {
+    using std::exp;
+    center(u);
+    std::vector<Wide_number>& s = result.scale_factors;
+    s.resize(u.size());
+    for(Index v = 0; v < u.size(); ++v)
+      s[v] = conditions.is_fixed(v) ? Wide_number(exp(Wide_number(conditions.log_scale_factor(v)) / 2))
+                                    : Wide_number(exp(u[v] / 2));
+
+    Vertex_vector residual = internal::wide_residual(triangulation_, s, conditions);
+    double size = internal::largest_entry(residual);
+    for(int step = 0; step < 50 && size > 1e-4 * tolerance; ++step)
+    {
+      linear_.graph().clear_fixed(residual);
+      Vertex_vector d;
+      bool converged;
+      result.statistics.number_of_linear_iterations
+        += linear_.conjugate_gradients(energy_->weights(), residual, 1e-6, 100, d, converged);
+      std::vector<Wide_number> moved = s;
+      for(Index v = 0; v < u.size(); ++v)
+        if(d[v] != 0)
+          moved[v] = s[v] + s[v] * (d[v] / 2 + d[v] * d[v] / 8);
+      residual = internal::wide_residual(triangulation_, moved, conditions);
+      const double moved_size = internal::largest_entry(residual);
+      if(!(moved_size < size))
+        break;
+      s.swap(moved);
+      const bool is_slow = moved_size > size / 2;
+      size = moved_size;
+      if(is_slow)
+        break;
+    }
+
+    result.statistics.residual = size;
+    result.statistics.residuals.push_back(size);
+    if(size > tolerance)
+    {
+      result.amount = size;
+      result.status = size <= result.statistics.residual_floor ? Status::CONVERGED_TO_ROUNDING
+                                                               : Status::ITERATIONS_EXHAUSTED;
+    }
+    if(is_success(result.status))
+      keep(s, u, result);
+  }
+
+  void keep(const std::vector<Wide_number>& s, Vertex_vector& u, Metric& result)
+  {
+    using std::log;
+    result.log_scale_factors.resize(u.size());
+    for(Index v = 0; v < u.size(); ++v)
+    {
+      if constexpr(std::is_same<NT, double>::value)
+        result.log_scale_factors[v] = 2 * (std::log(s[v].hi) + s[v].lo / s[v].hi);
+      else
+        result.log_scale_factors[v] = static_cast<NT>(2 * log(s[v]));
+      u[v] = static_cast<double>(result.log_scale_factors[v]);
+    }
+    last_u_ = u;
+  }
+
+  // Names the triangles that the metric found breaks: exactly for a solution, as the last
+  // evaluation saw them otherwise.
+  void judge(Metric& result) const
+  {
+    if(!is_success(result.status))
+    {
+      if(result.status == Status::ITERATIONS_EXHAUSTED)
+      {
+        result.faces = energy_->broken_faces();
+        result.amount = result.statistics.residual;
+      }
+      result.scale_factors.clear();
+      return;
+    }
+    const std::vector<Wide_number>& s = result.scale_factors;
+    for(Index f = 0; f < triangulation_.number_of_faces(); ++f)
+    {
+      const Index i = triangulation_.origin(3 * f), j = triangulation_.origin(3 * f + 1), k = triangulation_.origin(3 * f + 2);
+      if(!internal::is_scaled_triangle(s[i], s[j], s[k],
+                                       Wide_number(triangulation_.halfedge_length(3 * f)),
+                                       Wide_number(triangulation_.halfedge_length(3 * f + 1)),
+                                       Wide_number(triangulation_.halfedge_length(3 * f + 2))))
+        result.faces.push_back(f);
+    }
+    if(!result.faces.empty())
+      result.status = Status::DEGENERATE_METRIC;
+  }
+
+  Triangulation triangulation_;
+  Surface_components pieces_;
+  internal::Laplacian_solver<Solver_traits> linear_;
+  std::unique_ptr<Energy> energy_;
+  std::vector<char> floating_;  // components without a fixed u
+  Vertex_vector last_u_;
+};
+
+/// \ingroup PkgConformalEquivalenceSolver
+///
+/// finds the metric conformally equivalent to that of `t` with the given conditions: one
+/// `Conformal_metric_solver::solve()`, with the same named parameters and one more.
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{sparse_linear_solver}
+///     \cgalParamDescription{the solver of the linear systems}
+///     \cgalParamType{a model of `SparseLinearAlgebraWithFactorTraits_d`}
+///     \cgalParamDefault{`Default_solver_traits`}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
+template <typename NT, typename NamedParameters = parameters::Default_named_parameters>
+Conformal_metric<NT> compute_conformal_metric(Intrinsic_triangulation<NT> t,
+                                              const Conformal_conditions<NT>& conditions,
+                                              const NamedParameters& np = parameters::default_values())
+{
+  typedef typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t, NamedParameters,
+                                                       Default_solver_traits>::type Solver_traits;
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  return Conformal_metric_solver<NT, Solver_traits>(
+      std::move(t), choose_parameter<Solver_traits>(get_parameter(np, internal_np::sparse_linear_solver)))
+    .solve(conditions, np);
+}
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_COMPUTE_CONFORMAL_METRIC_H

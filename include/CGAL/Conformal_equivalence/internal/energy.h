@@ -1,0 +1,195 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The energy E(u) of a triangulated surface, its gradient and its Hessian
+// (sections 2.1 and 3.1, equations (7) to (10), of Springborn, Schroeder and
+// Pinkall, 2008), on all of R^n.
+//
+//   E(u) = sum over triangles ( f(lambda~) - pi/2 (u_i + u_j + u_k) ) + 1/2 sum Theta^_i u_i
+//   dE/du_i = 1/2 (Theta^_i - Theta~_i)
+//   (Hess E . d)_i = 1/4 sum over edges ij of w_ij (d_i - d_j),  w_ij = cot + cot
+//
+// E is C^1 and convex; where a triangle inequality fails, its angles are pi, 0, 0
+// and its cotangents count as 0.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_ENERGY_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_ENERGY_H
+
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Lobachevsky.h>
+#include <CGAL/Conformal_equivalence/internal/triangle_formulas.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// f of one triangle, equation (8): `lambda[k]` = 2 log of the length opposite to `angle[k]`.
+template <typename NT>
+NT triangle_energy(const std::array<NT, 3>& lambda, const std::array<NT, 3>& angle)
+{
+  NT result(0);
+  for(int k = 0; k < 3; ++k)
+    result += angle[k] * lambda[k] / 2 + Lobachevsky(angle[k]);
+  return result;
+}
+
+// f as a function of the logarithmic lengths alone.
+template <typename NT>
+NT triangle_energy(const std::array<NT, 3>& lambda)
+{
+  using std::exp;
+  return triangle_energy(lambda, triangle_angles<NT>(exp(lambda[0] / 2), exp(lambda[1] / 2), exp(lambda[2] / 2)).angle);
+}
+
+// The angles and cotangents of the metric l~ = e^{(u_i + u_j)/2} l at one u.
+template <typename NT, typename Length = NT>
+class Conformal_energy
+{
+public:
+  typedef Intrinsic_triangulation<Length> Triangulation;
+  typedef typename Triangulation::Index Index;
+
+  // Keeps a reference to `t` and its lengths converted to NT. If `normalize`, they are
+  // multiplied by a power of two that brings them near 1.
+  explicit Conformal_energy(const Triangulation& t, bool normalize = false)
+    : t_(t), scale_(t.number_of_vertices(), NT(1)),
+      angle_sum_(t.number_of_vertices()), weight_(t.number_of_edges()), sensitivity_(t.number_of_vertices())
+  {
+    using std::ldexp;
+    const int exponent = normalize ? middle_exponent() : 0;
+    length_.reserve(t.number_of_edges());
+    for(const Length& l : t.lengths())
+      length_.push_back(static_cast<NT>(exponent == 0 ? l : Length(ldexp(l, -exponent))));
+  }
+
+  // moves to u: computes angle sums, edge weights and rounding floors there.
+  // Returns false if a length overflows, underflows or is no number.
+  bool evaluate(const std::vector<NT>& u)
+  {
+    using std::exp;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      scale_[v] = exp(u[v] / 2);
+    clear();
+    bool is_finite = true;
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+      is_finite = add_triangle(3 * f) && is_finite;
+    return is_finite;
+  }
+
+  const std::vector<NT>& angle_sums() const { return angle_sum_; }  // Theta~, by vertex
+  const std::vector<NT>& weights() const { return weight_; }        // w, by edge
+  const std::vector<Index>& broken_faces() const { return broken_; }
+
+  // what rounding alone may change in the angle sum at v, in units of epsilon:
+  // a corner's angle moves by (cot + cot of the two others) times a relative
+  // change of the lengths
+  const NT& sensitivity(Index v) const { return sensitivity_[v]; }
+
+  const NT& scale(Index v) const { return scale_[v]; }
+  NT scaled_length(Index h) const
+  {
+    return scale_[t_.origin(h)] * length_[t_.edge(h)] * scale_[t_.target(h)];
+  }
+
+  // E(u), equation (7). `target[v]` is Theta^; `evaluate(u)` need not be called.
+  NT value(const std::vector<NT>& u, const std::vector<NT>& target) const
+  {
+    using std::log;
+    const NT pi = Number_constants<NT>::pi();
+    NT sum(0);
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+    {
+      std::array<NT, 3> lambda;
+      NT u_sum(0);
+      for(Index k = 0; k < 3; ++k)
+      {
+        const Index h = 3 * f + k;
+        lambda[k] = 2 * log(length_[t_.edge(h)]) + u[t_.origin(h)] + u[t_.target(h)];
+        u_sum += u[t_.origin(h)];
+      }
+      sum += triangle_energy(lambda) - pi / 2 * u_sum;
+    }
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      if(!t_.is_isolated_vertex(v))
+        sum += target[v] * u[v] / 2;
+    return sum;
+  }
+
+  // Hess E . d at the u last evaluated, equation (10).
+  std::vector<NT> hessian_product(const std::vector<NT>& d) const
+  {
+    std::vector<NT> result(d.size(), NT(0));
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+    {
+      const Index i = t_.origin(t_.edge_halfedge(e)), j = t_.target(t_.edge_halfedge(e));
+      const NT flux = weight_[e] * (d[i] - d[j]) / 4;
+      result[i] += flux;
+      result[j] -= flux;
+    }
+    return result;
+  }
+
+private:
+  // of the middle between shortest and longest length, logarithmically
+  int middle_exponent() const
+  {
+    using std::frexp;
+    int least = (std::numeric_limits<int>::max)(), most = (std::numeric_limits<int>::min)();
+    for(const Length& l : t_.lengths())
+    {
+      int exponent;
+      if(!(l > 0))
+        continue;
+      (void) frexp(l, &exponent);
+      least = (std::min)(least, exponent);
+      most = (std::max)(most, exponent);
+    }
+    return least > most ? 0 : least + (most - least) / 2;
+  }
+
+  void clear()
+  {
+    std::fill(angle_sum_.begin(), angle_sum_.end(), NT(0));
+    std::fill(weight_.begin(), weight_.end(), NT(0));
+    std::fill(sensitivity_.begin(), sensitivity_.end(), NT(0));
+    broken_.clear();
+  }
+
+  bool add_triangle(Index h0)
+  {
+    const std::array<Index, 3> v = {{t_.origin(h0), t_.origin(h0 + 1), t_.origin(h0 + 2)}};
+    const std::array<NT, 3> l = {{scaled_length(h0), scaled_length(h0 + 1), scaled_length(h0 + 2)}};
+    const NT perimeter = l[0] + l[1] + l[2];
+    const bool is_finite = l[0] > 0 && l[1] > 0 && l[2] > 0 && perimeter - perimeter == NT(0);
+
+    const Triangle_angles<NT> t = triangle_angles(l[0], l[1], l[2]);
+    if(t.is_broken)
+      broken_.push_back(Triangulation::face(h0));
+    for(int k = 0; k < 3; ++k)
+    {
+      const int apex = (k + 2) % 3; // opposite to side k
+      angle_sum_[v[apex]] += t.angle[k];
+      weight_[t_.edge(h0 + k)] += t.cotangent[k];
+      using std::abs;
+      sensitivity_[v[apex]] += 1 + abs(t.cotangent[(k + 1) % 3]) + abs(t.cotangent[(k + 2) % 3]);
+    }
+    return is_finite;
+  }
+
+  const Triangulation& t_;
+  std::vector<NT> length_, scale_, angle_sum_, weight_, sensitivity_;
+  std::vector<Index> broken_;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_ENERGY_H

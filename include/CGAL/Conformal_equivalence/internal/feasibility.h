@@ -1,0 +1,166 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What conditions must satisfy for a solution to exist (section 2.1 of Springborn,
+// Schroeder and Pinkall, 2008), decided before anything is computed and without
+// rounding where the angles are rational multiples of pi.
+//
+// On each component, with F the vertices of fixed u:
+//   F empty:     sum (2 pi - Theta^) + sum over border (pi - Theta^) = 2 pi chi (Gauss-Bonnet);
+//   F not empty: the same formula leaves F a total angle, which must be positive.
+// And 0 < Theta^ < pi * (number of triangles) at every vertex.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_FEASIBILITY_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_FEASIBILITY_H
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Double_double.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+struct Feasibility
+{
+  Status status = Status::OK;
+  double amount = 0;
+  std::vector<std::uint32_t> vertices;
+  double angle_defect_spread = 0;
+};
+
+// Defects below this come from angles that were written with few digits.
+inline double negligible_angle_defect() { return 1e-9; }
+
+// The total angle of one component that the prescribed angles do not use up.
+template <typename NT>
+struct Angle_balance
+{
+  std::int64_t units = 0;      // of pi / 2520
+  Double_double rest = 0;      // radians
+  std::size_t number_of_fixed = 0;
+  std::vector<std::uint32_t> inexact; // vertices whose target is no exact multiple
+
+  double radians() const
+  {
+    const Double_double unit = Number_constants<Double_double>::pi() / int(Exact_angle<NT>::units_of_pi);
+    return to_double(unit * units + rest);
+  }
+  bool is_zero() const { return units == 0 && rest == Double_double(0); }
+};
+
+// Gauss-Bonnet says: the sum of all angle sums is 2 pi |V| - pi |V of the border| - 2 pi chi.
+template <typename NT>
+std::vector<Angle_balance<NT> > angle_balances(const Intrinsic_triangulation<NT>& t,
+                                               const Surface_components& pieces,
+                                               const Conformal_conditions<NT>& conditions)
+{
+  const std::int64_t pi = Exact_angle<NT>::units_of_pi;
+  std::vector<Angle_balance<NT> > balance(pieces.components.size());
+  for(std::size_t c = 0; c < balance.size(); ++c)
+    balance[c].units = -2 * pi * pieces.components[c].euler_characteristic();
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+  {
+    if(t.is_isolated_vertex(v))
+      continue;
+    Angle_balance<NT>& b = balance[pieces.component_of_vertex[v]];
+    b.units += t.is_border_vertex(v) ? pi : 2 * pi;
+    if(conditions.is_fixed(v))
+    {
+      ++b.number_of_fixed;
+      continue;
+    }
+    const Exact_angle<NT>& angle = conditions.angle_sum(v);
+    b.units -= angle.units;
+    b.rest -= Double_double(static_cast<double>(angle.rest));
+    if(!angle.is_exact())
+      b.inexact.push_back(v);
+  }
+  return balance;
+}
+
+template <typename NT>
+Feasibility check_numbers(const Intrinsic_triangulation<NT>& t, const Conformal_conditions<NT>& conditions)
+{
+  Feasibility result;
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+  {
+    if(t.is_isolated_vertex(v))
+      continue;
+    const double x = conditions.is_fixed(v) ? static_cast<double>(conditions.log_scale_factor(v))
+                                            : conditions.angle_sum(v).template radians<double>();
+    if(!std::isfinite(x))
+      result.vertices.push_back(v);
+  }
+  if(!result.vertices.empty())
+    result.status = Status::INVALID_NUMBER;
+  return result;
+}
+
+template <typename NT>
+Feasibility check_angle_ranges(const Intrinsic_triangulation<NT>& t, const Conformal_conditions<NT>& conditions)
+{
+  Feasibility result;
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+  {
+    if(t.is_isolated_vertex(v) || conditions.is_fixed(v))
+      continue;
+    const Exact_angle<NT>& angle = conditions.angle_sum(v);
+    const std::int64_t most = std::int64_t(Exact_angle<NT>::units_of_pi) * t.degree(v);
+    const double radians = angle.template radians<double>();
+    const bool is_below = angle.is_exact() ? angle.units < most
+                                           : radians < Number_constants<double>::pi() * t.degree(v);
+    if(radians > 0 && is_below)
+      continue;
+    if(result.vertices.empty())
+      result.amount = radians;
+    result.vertices.push_back(v);
+    result.status = Status::ANGLE_OUT_OF_RANGE;
+  }
+  return result;
+}
+
+// Checks all of the above; adds negligible defects to the targets that are not
+// exact multiples of pi / 2520.
+template <typename NT>
+Feasibility make_feasible(const Intrinsic_triangulation<NT>& t, const Surface_components& pieces,
+                          Conformal_conditions<NT>& conditions)
+{
+  Feasibility result = check_numbers(t, conditions);
+  if(result.status == Status::OK)
+    result = check_angle_ranges(t, conditions);
+  if(result.status != Status::OK)
+    return result;
+
+  for(const Angle_balance<NT>& balance : angle_balances(t, pieces, conditions))
+  {
+    const double left = balance.radians();
+    if(balance.number_of_fixed > 0 ? left > 0 : balance.is_zero())
+      continue;
+    if(balance.number_of_fixed > 0 || std::abs(left) > negligible_angle_defect() || balance.inexact.empty())
+    {
+      result.status = Status::GAUSS_BONNET_VIOLATED;
+      result.amount = left;
+      return result;
+    }
+    for(std::uint32_t v : balance.inexact)
+    {
+      Exact_angle<NT> angle = conditions.angle_sum(v);
+      angle.rest += NT(left) / NT(double(balance.inexact.size()));
+      conditions.prescribe_angle_sum(v, angle);
+    }
+    result.angle_defect_spread += std::abs(left);
+  }
+  return result;
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_FEASIBILITY_H

@@ -1,0 +1,408 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The linear algebra of the solver. The derivative of the angle sums is
+//
+//   d Theta_i = - 1/2 sum over edges ij of w_ij (d_i - d_j) =: - (A d)_i,
+//
+// twice the Hessian of E. The matrix A is restricted to the free vertices. It is
+// applied edge by edge and never assembled, except to be factorized; the factor of
+// one A serves as preconditioner for the conjugate gradient method with later ones.
+// Vectors run over all vertices and are zero at those that are not free.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
+
+#include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+typedef std::vector<double> Vertex_vector;
+
+inline double dot(const Vertex_vector& x, const Vertex_vector& y)
+{
+  double sum = 0;
+  for(std::size_t i = 0; i < x.size(); ++i)
+    sum += x[i] * y[i];
+  return sum;
+}
+
+inline double largest_entry(const Vertex_vector& x)
+{
+  double result = 0;
+  for(double entry : x)
+    result = (std::max)(result, std::abs(entry));
+  return result;
+}
+
+// The edges of the graph, with the vertices that are free.
+struct Edge_graph
+{
+  typedef std::uint32_t Index;
+  std::vector<std::pair<Index, Index> > ends; // by edge
+  std::vector<Index> free_index;              // by vertex; null_index where fixed
+  Index number_of_free = 0;
+
+  bool is_free(Index v) const { return free_index[v] != Intrinsic_triangulation<>::null_index; }
+
+  template <typename NT>
+  void set_edges(const Intrinsic_triangulation<NT>& t)
+  {
+    ends.resize(t.number_of_edges());
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      ends[e] = std::make_pair(t.origin(t.edge_halfedge(e)), t.target(t.edge_halfedge(e)));
+  }
+
+  void set_free(const std::vector<char>& free)
+  {
+    number_of_free = 0;
+    free_index.assign(free.size(), Intrinsic_triangulation<>::null_index);
+    for(std::size_t v = 0; v < free.size(); ++v)
+      if(free[v])
+        free_index[v] = number_of_free++;
+  }
+
+  std::vector<char> free_vertices() const
+  {
+    std::vector<char> result(free_index.size());
+    for(std::size_t v = 0; v < result.size(); ++v)
+      result[v] = is_free(Index(v)) ? 1 : 0;
+    return result;
+  }
+
+  // A x for the edge weights w, on the free vertices; `x` may be nonzero at fixed ones.
+  Vertex_vector product(const std::vector<double>& w, const Vertex_vector& x) const
+  {
+    Vertex_vector y(x.size(), 0.);
+    for(std::size_t e = 0; e < ends.size(); ++e)
+    {
+      const double flux = w[e] * (x[ends[e].first] - x[ends[e].second]) / 2;
+      y[ends[e].first] += flux;
+      y[ends[e].second] -= flux;
+    }
+    clear_fixed(y);
+    return y;
+  }
+
+  Vertex_vector diagonal(const std::vector<double>& w) const
+  {
+    Vertex_vector y(free_index.size(), 0.);
+    for(std::size_t e = 0; e < ends.size(); ++e)
+    {
+      if(ends[e].first == ends[e].second)
+        continue;
+      y[ends[e].first] += w[e] / 2;
+      y[ends[e].second] += w[e] / 2;
+    }
+    clear_fixed(y);
+    return y;
+  }
+
+  void clear_fixed(Vertex_vector& y) const
+  {
+    for(std::size_t v = 0; v < y.size(); ++v)
+      if(!is_free(Index(v)))
+        y[v] = 0;
+  }
+};
+
+// What is added to the diagonal of A where triangles are broken: rows that have
+// lost (nearly) all of their weight get the mean weight.
+inline Vertex_vector regularization(const Edge_graph& graph, const std::vector<double>& w, std::size_t& rows)
+{
+  Vertex_vector d = graph.diagonal(w), result(d.size(), 0.);
+  double sum = 0, largest = 0;
+  for(double x : d)
+  {
+    sum += (std::max)(x, 0.);
+    largest = (std::max)(largest, x);
+  }
+  const double mean = sum > 0 ? sum / (std::max)(graph.number_of_free, 1u) : 1;
+  rows = 0;
+  for(std::uint32_t v = 0; v < d.size(); ++v)
+  {
+    if(!graph.is_free(v) || d[v] > 1e-14 * largest)
+      continue;
+    result[v] = mean;
+    ++rows;
+  }
+  return result;
+}
+
+// The lower half of A plus a diagonal, by columns, in the order of the free vertices.
+inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const std::vector<double>& w,
+                                                  const Vertex_vector& shift)
+{
+  typedef Eigen::SparseMatrix<double> Matrix;
+  const int n = int(graph.number_of_free);
+  Matrix a(n, n);
+
+  // the number of edges below the diagonal in each column, and the diagonal itself
+  std::vector<int> first(n + 1, 0);
+  const auto entry = [&](std::size_t e, int& row, int& column)
+  {
+    const auto i = graph.ends[e].first, j = graph.ends[e].second;
+    if(i == j || !graph.is_free(i) || !graph.is_free(j))
+      return false;
+    row = int((std::max)(graph.free_index[i], graph.free_index[j]));
+    column = int((std::min)(graph.free_index[i], graph.free_index[j]));
+    return true;
+  };
+  int row, column;
+  for(std::size_t e = 0; e < graph.ends.size(); ++e)
+    if(entry(e, row, column))
+      ++first[column + 1];
+  for(int c = 0; c < n; ++c)
+    first[c + 1] += first[c] + 1;
+  a.resizeNonZeros(first[n]);
+
+  std::vector<int> free_place(first.begin(), first.end() - 1);
+  int* rows = a.innerIndexPtr();
+  double* values = a.valuePtr();
+  const Vertex_vector d = graph.diagonal(w);
+  for(std::size_t v = 0; v < d.size(); ++v)
+    if(graph.is_free(std::uint32_t(v)))
+    {
+      const int c = int(graph.free_index[v]);
+      rows[free_place[c]] = c;
+      values[free_place[c]++] = d[v] + shift[v];
+    }
+  for(std::size_t e = 0; e < graph.ends.size(); ++e)
+    if(entry(e, row, column))
+    {
+      rows[free_place[column]] = row;
+      values[free_place[column]++] = -w[e] / 2;
+    }
+
+  // sort every column and join multiple edges
+  int end = 0;
+  std::vector<std::pair<int, double> > sorted;
+  for(int c = 0; c < n; ++c)
+  {
+    sorted.clear();
+    for(int k = first[c]; k < first[c + 1]; ++k)
+      sorted.emplace_back(rows[k], values[k]);
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+    a.outerIndexPtr()[c] = end;
+    for(const auto& s : sorted)
+    {
+      if(end > a.outerIndexPtr()[c] && rows[end - 1] == s.first)
+        values[end - 1] += s.second;
+      else
+      {
+        rows[end] = s.first;
+        values[end++] = s.second;
+      }
+    }
+  }
+  a.outerIndexPtr()[n] = end;
+  a.resizeNonZeros(end);
+  return a;
+}
+
+template <typename Traits, typename = void>
+struct Has_pattern_analysis : std::false_type {};
+
+template <typename Traits>
+struct Has_pattern_analysis<Traits, std::void_t<decltype(std::declval<Traits&>().analyze_pattern(
+    std::declval<const typename Traits::Matrix&>()))> > : std::true_type {};
+
+// One factor of A behind the solver traits. Traits without the split of analysis
+// and factorization (any model of CGAL's `SparseLinearAlgebraWithFactorTraits_d`)
+// get the whole matrix through `set_coef()`.
+template <typename SolverTraits>
+class Factorization
+{
+  typedef typename SolverTraits::Matrix Matrix;
+  typedef typename SolverTraits::Vector Vector;
+
+public:
+  explicit Factorization(const SolverTraits& traits) : traits_(traits) {}
+
+  void forget_pattern() { is_analyzed_ = false; }
+
+  // factorizes A + diag(shift)
+  bool factor(const Edge_graph& graph, const std::vector<double>& w, const Vertex_vector& shift)
+  {
+    Eigen::SparseMatrix<double> lower = assemble_lower(graph, w, shift);
+    typename SolverTraits::NT denominator;
+    if constexpr(Has_pattern_analysis<SolverTraits>::value)
+    {
+      matrix_ = std::make_unique<Matrix>(typename Matrix::EigenType());
+      matrix_->eigen_object().swap(lower);
+      if(!is_analyzed_ && !traits_.analyze_pattern(*matrix_))
+        return false;
+      is_analyzed_ = true;
+      return traits_.refactor(*matrix_, denominator);
+    }
+    else
+    {
+      matrix_ = std::make_unique<Matrix>(lower.rows(), lower.rows());
+      for(int c = 0; c < lower.outerSize(); ++c)
+        for(Eigen::SparseMatrix<double>::InnerIterator entry(lower, c); entry; ++entry)
+        {
+          matrix_->set_coef(entry.row(), c, entry.value(), true);
+          if(entry.row() != c)
+            matrix_->set_coef(c, entry.row(), entry.value(), true);
+        }
+      return traits_.factor(*matrix_, denominator);
+    }
+  }
+
+  // x = A^-1 b on the free vertices, with the matrix last factorized
+  bool solve(const Edge_graph& graph, const Vertex_vector& b, Vertex_vector& x)
+  {
+    Vector right(graph.number_of_free), solution(graph.number_of_free);
+    for(std::size_t v = 0; v < b.size(); ++v)
+      if(graph.is_free(std::uint32_t(v)))
+        right[graph.free_index[v]] = b[v];
+    if(!traits_.linear_solver(right, solution))
+      return false;
+    x.assign(b.size(), 0.);
+    for(std::size_t v = 0; v < b.size(); ++v)
+      if(graph.is_free(std::uint32_t(v)))
+        x[v] = solution[graph.free_index[v]];
+    return true;
+  }
+
+private:
+  SolverTraits traits_;
+  std::unique_ptr<Matrix> matrix_;
+  bool is_analyzed_ = false;
+};
+
+// Systems A x = b for changing A: a kept factor and preconditioned conjugate gradients.
+template <typename SolverTraits>
+class Laplacian_solver
+{
+public:
+  explicit Laplacian_solver(const SolverTraits& traits) : factor_(traits) {}
+
+  const Edge_graph& graph() const { return graph_; }
+  bool has_factor() const { return has_factor_; }
+  std::size_t number_of_factorizations() const { return number_of_factorizations_; }
+  std::size_t number_of_regularized_rows() const { return number_of_regularized_rows_; }
+
+  template <typename NT>
+  void set_edges(const Intrinsic_triangulation<NT>& t)
+  {
+    graph_.set_edges(t);
+    graph_.set_free(std::vector<char>(t.number_of_vertices(), 0));
+    has_factor_ = false;
+  }
+
+  // The factor is kept if the free vertices are those of the last call.
+  void set_free(const std::vector<char>& free)
+  {
+    if(has_factor_ && graph_.free_vertices() == free)
+      return;
+    graph_.set_free(free);
+    factor_.forget_pattern();
+    has_factor_ = false;
+  }
+
+  // factorizes A(w), regularized until it is positive definite
+  bool factorize(const std::vector<double>& w)
+  {
+    has_factor_ = graph_.number_of_free == 0;
+    if(has_factor_)
+      return true;
+    std::size_t rows = 0;
+    Vertex_vector shift = regularization(graph_, w, rows);
+    number_of_regularized_rows_ = (std::max)(number_of_regularized_rows_, rows);
+    const Vertex_vector diagonal = graph_.diagonal(w);
+    for(double relative = 1e-10; relative < 1; relative *= 100)
+    {
+      ++number_of_factorizations_;
+      if(factor_.factor(graph_, w, shift))
+        return has_factor_ = true;
+      for(std::size_t v = 0; v < shift.size(); ++v)
+        shift[v] += relative * (std::max)(diagonal[v], 0.);
+    }
+    return false;
+  }
+
+  // x = A^-1 b with the matrix last factorized
+  bool precondition(const Vertex_vector& b, Vertex_vector& x)
+  {
+    x.assign(b.size(), 0.);
+    return graph_.number_of_free == 0 || factor_.solve(graph_, b, x);
+  }
+
+  // Conjugate gradients for A(w) x = b from x = 0, preconditioned by the kept
+  // factor, until the residual is below `tolerance` times b in the norm of the
+  // preconditioner, or after `most` iterations. Returns the number of iterations; x is always a
+  // descent direction.
+  std::size_t conjugate_gradients(const std::vector<double>& w, const Vertex_vector& b, double tolerance,
+                                  std::size_t most, Vertex_vector& x, bool& converged)
+  {
+    std::size_t rows = 0;
+    const Vertex_vector shift = regularization(graph_, w, rows);
+    Vertex_vector r = b, z, p;
+    x.assign(b.size(), 0.);
+    converged = graph_.number_of_free == 0;
+    if(converged || (!has_factor_ && !factorize(w)) || !precondition(r, z))
+      return 0;
+    p = z;
+    double rz = dot(r, z);
+    const double goal = tolerance * tolerance * rz, largest_b = largest_entry(b);
+    std::size_t iteration = 0;
+    for(converged = rz == 0; !converged && iteration < most; ++iteration)
+    {
+      Vertex_vector q = graph_.product(w, p);
+      if(rows > 0)
+        for(std::size_t v = 0; v < q.size(); ++v)
+          q[v] += shift[v] * p[v];
+      const double curvature = dot(p, q);
+      if(!(curvature > 1e-14 * std::abs(rz))) // flat: nothing is known about this direction
+      {
+        if(iteration == 0)
+          x = p;
+        return iteration + 1;
+      }
+      const double step = rz / curvature;
+      for(std::size_t v = 0; v < x.size(); ++v)
+      {
+        x[v] += step * p[v];
+        r[v] -= step * q[v];
+      }
+      if(largest_entry(r) <= 1e-10 * largest_b)
+      {
+        converged = true;
+        continue;
+      }
+      if(!precondition(r, z))
+        return iteration + 1;
+      const double rz_new = dot(r, z);
+      converged = rz_new <= goal;
+      const double beta = rz_new / rz;
+      for(std::size_t v = 0; v < p.size(); ++v)
+        p[v] = z[v] + beta * p[v];
+      rz = rz_new;
+    }
+    return iteration;
+  }
+
+private:
+  Edge_graph graph_;
+  Factorization<SolverTraits> factor_;
+  bool has_factor_ = false;
+  std::size_t number_of_factorizations_ = 0, number_of_regularized_rows_ = 0;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
