@@ -3,6 +3,9 @@
 
 // Compile-only: the five programs that the interface was made for.
 
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h> // before Seam_mesh.h, which calls its functions by qualified names
+
 #include "include/rooms_to_come.h"
 
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
@@ -10,8 +13,6 @@
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_equivalence_parameterizer_3.h>
 
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 
 #include <functional>

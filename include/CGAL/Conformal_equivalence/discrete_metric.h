@@ -34,6 +34,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -663,7 +664,11 @@ Flattening_report<TriangleMesh> with_two_metrics(const TriangleMesh& tm, EdgeLen
 /// \param edge_length_map_0 the one metric
 /// \param edge_length_map_1 the other metric
 /// \param tolerance the relative difference allowed
-template <typename TriangleMesh, typename EdgeLengthMap0, typename EdgeLengthMap1>
+template <typename TriangleMesh, typename EdgeLengthMap0, typename EdgeLengthMap1
+#ifndef DOXYGEN_RUNNING
+          , std::enable_if_t<!std::is_arithmetic<EdgeLengthMap1>::value, int> = 0 // that is a tolerance
+#endif
+          >
 bool are_conformally_equivalent(const TriangleMesh& tm, EdgeLengthMap0 edge_length_map_0,
                                 EdgeLengthMap1 edge_length_map_1, double tolerance = 1e-8)
 {
