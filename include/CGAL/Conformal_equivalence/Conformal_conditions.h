@@ -31,7 +31,7 @@ namespace Conformal_equivalence {
 template <typename NT = double>
 struct Exact_angle
 {
-  static constexpr std::int32_t units_of_pi = 2520;
+  static constexpr std::int32_t units_of_pi = 2520; ///< how many units make pi
 
   std::int32_t units = 0;   ///< multiples of pi / 2520
   NT rest = NT(0);          ///< what is left, in radians
@@ -86,9 +86,10 @@ struct Exact_angle
 template <typename NT_ = double>
 struct Conformal_conditions
 {
-  typedef NT_ NT;
-  typedef std::uint32_t Index;
+  typedef NT_ NT;               ///< number type of angles and of u
+  typedef std::uint32_t Index;  ///< of vertices
 
+  /// no condition at all, for no vertex.
   Conformal_conditions() = default;
 
   /// no condition but the natural ones: angle sum 2 pi at interior vertices, u = 0 at border
@@ -108,18 +109,23 @@ struct Conformal_conditions
     }
   }
 
+  /// the number of vertices.
   std::size_t size() const { return u_.size(); }
 
   /// prescribes the angle sum at `v`.
   void prescribe_angle_sum(Index v, const Exact_angle<NT>& angle) { is_fixed_[v] = 0; angle_[v] = angle; }
+  /// prescribes the angle sum at `v`, in radians; see the constructor of `Exact_angle`.
   void prescribe_angle_sum(Index v, const NT& radians) { prescribe_angle_sum(v, Exact_angle<NT>(radians)); }
 
   /// fixes the logarithmic scale factor at `v`.
   void fix_log_scale_factor(Index v, const NT& u) { is_fixed_[v] = 1; u_[v] = u; }
 
+  /// is `true` iff u is fixed at `v`, `false` iff the angle sum is prescribed.
   bool is_fixed(Index v) const { return is_fixed_[v] != 0; }
-  const Exact_angle<NT>& angle_sum(Index v) const { return angle_[v]; }  ///< \pre `!is_fixed(v)`
-  const NT& log_scale_factor(Index v) const { return u_[v]; }            ///< \pre `is_fixed(v)`
+  /// the angle sum prescribed at `v`. \pre `!is_fixed(v)`
+  const Exact_angle<NT>& angle_sum(Index v) const { return angle_[v]; }
+  /// u as fixed at `v`. \pre `is_fixed(v)`
+  const NT& log_scale_factor(Index v) const { return u_[v]; }
 
 private:
   std::vector<char> is_fixed_;

@@ -27,24 +27,29 @@ namespace Conformal_equivalence {
 template <typename NT_ = double>
 struct Conformal_metric
 {
-  typedef NT_ NT;
-  typedef std::uint32_t Index;
+  typedef NT_ NT;               ///< number type of lengths and of u
+  typedef std::uint32_t Index;  ///< of vertices, edges and faces
+
   /// at least as wide as `NT`: for `double` a pair of two
   typedef typename internal::Wider_number<NT>::type Wide_number;
 
   Intrinsic_triangulation<NT> triangulation;  ///< with the lengths l, at u = 0
   std::vector<NT> log_scale_factors;          ///< u, by vertex, rounded to `NT`
+
   /// e^{u/2}, by vertex, to all the digits that the solver knows: the scaled lengths
   /// made with these are exactly conformally equivalent to the given ones.
   std::vector<Wide_number> scale_factors;
 
-  Status status = Status::OK;
+  Status status = Status::OK;                 ///< whether there is a metric, or why not
   double amount = 0;                          ///< see `Status`
   /// \name Elements at fault
   /// @{
-  std::vector<Index> vertices, edges, faces;
+  std::vector<Index> vertices; ///< vertices at fault
+  std::vector<Index> edges;    ///< edges at fault
+  std::vector<Index> faces;    ///< faces at fault
   /// @}
-  Statistics statistics;
+
+  Statistics statistics;                      ///< figures of the run
 
   /// is `true` iff the metric is usable.
   explicit operator bool() const { return is_success(status); }

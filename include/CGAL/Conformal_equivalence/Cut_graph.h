@@ -25,7 +25,7 @@ namespace Conformal_equivalence {
 struct Cut_graph
 {
   std::vector<char> is_cut;           ///< by edge of the input triangulation; empty: nothing is cut
-  Status status = Status::OK;
+  Status status = Status::OK;         ///< whether the surface could be cut
   std::vector<std::uint32_t> edges;   ///< at fault
 
   /// is `true` iff the edge `e` is cut.

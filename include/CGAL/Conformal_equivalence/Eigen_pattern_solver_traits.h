@@ -64,10 +64,11 @@ class Eigen_pattern_solver_traits
   typedef CGAL::Eigen_solver_traits<EigenSolver> Base;
 
 public:
-  typedef typename Base::Matrix Matrix;
-  typedef typename Base::Vector Vector;
-  typedef typename Base::NT     NT;
+  typedef typename Base::Matrix Matrix; ///< sparse matrix
+  typedef typename Base::Vector Vector; ///< vector
+  typedef typename Base::NT     NT;     ///< number type
 
+  /// has nothing analyzed yet.
   Eigen_pattern_solver_traits()
   {
     if constexpr(internal::Is_cholmod_solver<EigenSolver>::value)

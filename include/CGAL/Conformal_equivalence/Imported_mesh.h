@@ -69,13 +69,13 @@ template <typename TriangleMesh, typename NT_ = double>
 class Imported_mesh
 {
 public:
-  typedef TriangleMesh Triangle_mesh;
-  typedef NT_ NT;
-  typedef std::uint32_t Index;
-  typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor   vertex_descriptor;
-  typedef typename boost::graph_traits<TriangleMesh>::halfedge_descriptor halfedge_descriptor;
-  typedef typename boost::graph_traits<TriangleMesh>::edge_descriptor     edge_descriptor;
-  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor     face_descriptor;
+  typedef TriangleMesh Triangle_mesh; ///< type of the mesh
+  typedef NT_ NT;                     ///< number type of the lengths
+  typedef std::uint32_t Index;        ///< of vertices, halfedges, edges and faces
+  typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor   vertex_descriptor;   ///< of the mesh
+  typedef typename boost::graph_traits<TriangleMesh>::halfedge_descriptor halfedge_descriptor; ///< of the mesh
+  typedef typename boost::graph_traits<TriangleMesh>::edge_descriptor     edge_descriptor;     ///< of the mesh
+  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor     face_descriptor;     ///< of the mesh
 
   /// imports the triangulation of all of `tm`, with all lengths 1. Linear time.
   explicit Imported_mesh(const TriangleMesh& tm) : Imported_mesh(tm, faces(tm)) {}
@@ -93,6 +93,7 @@ public:
       glue();
   }
 
+  /// the mesh that was imported.
   const TriangleMesh& mesh() const { return *mesh_; }
 
   /// the surface; meaningful iff `status` is `OK`.
@@ -103,15 +104,22 @@ public:
   /// `import_mesh()`: `INVALID_NUMBER` (vertices or edges), `ZERO_LENGTH_EDGE` (edges).
   /// Faces that are no triangles are named by their position in `faces(tm)`.
   /// @{
-  Status status = Status::OK;
-  std::vector<Index> faulty_vertices, faulty_edges, faulty_faces;
+  Status status = Status::OK;          ///< whether the mesh could be imported, or why not
+  std::vector<Index> faulty_vertices;  ///< vertices at fault
+  std::vector<Index> faulty_edges;     ///< edges at fault
+  std::vector<Index> faulty_faces;     ///< faces at fault
   /// @}
 
   /// \name Indices to descriptors
   /// @{
+
+  /// the vertex number `v`
   vertex_descriptor vertex(Index v) const { return vertices_[v]; }
+
+  /// the face number `f`
   face_descriptor face(Index f) const { return faces_[f]; }
 
+  /// the halfedge number `h`
   halfedge_descriptor halfedge(Index h) const
   {
     halfedge_descriptor result = internal::first_halfedge(faces_[h / 3], *mesh_);
@@ -120,6 +128,7 @@ public:
     return result;
   }
 
+  /// the edge number `e`
   edge_descriptor edge(Index e) const
   {
     return internal::edge_of_halfedge(halfedge(triangulation.edge_halfedge(e)), *mesh_);
@@ -128,10 +137,14 @@ public:
 
   /// \name Descriptors to indices
   /// @{
+
+  /// the number of `v`
   Index index_of_vertex(vertex_descriptor v) const { return get(vertex_index_, v); }
+
+  /// the number of `f`; `Intrinsic_triangulation::null_index` if `f` was not imported
   Index index_of_face(face_descriptor f) const { return get(face_index_, f); }
 
-  /// \pre `h` has an imported face on its left
+  /// the number of `h`. \pre `h` has an imported face on its left
   Index index_of_halfedge(halfedge_descriptor h) const
   {
     const face_descriptor f = internal::face_of_halfedge(h, *mesh_);
@@ -149,7 +162,7 @@ public:
         && get(face_index_, f) != Intrinsic_triangulation<NT>::null_index;
   }
 
-  /// \pre a face at `e` was imported
+  /// the number of `e`. \pre a face at `e` was imported
   Index index_of_edge(edge_descriptor e) const
   {
     const halfedge_descriptor h = internal::halfedge_of_edge(e, *mesh_);
@@ -371,6 +384,19 @@ void name_elements(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vecto
     report.faces.push_back(mesh.face(f));
     report.face_indices.push_back(f);
   }
+}
+
+// What the import of a mesh found.
+template <typename TriangleMesh, typename NT>
+Flattening_report<TriangleMesh> import_report(const Imported_mesh<TriangleMesh, NT>& mesh)
+{
+  Flattening_report<TriangleMesh> report;
+  report.status = mesh.status;
+  if(mesh.status == Status::OK)
+    report.topology = surface_topology(mesh.triangulation, connected_components(mesh.triangulation));
+  else
+    name_elements(mesh, mesh.faulty_vertices, mesh.faulty_edges, mesh.faulty_faces, report);
+  return report;
 }
 
 } // namespace internal

@@ -55,6 +55,7 @@ public:
   /// \name Construction
   /// @{
 
+  /// constructs the empty surface.
   Intrinsic_triangulation() = default;
 
   /// constructs the surface with `number_of_vertices` vertices whose halfedge
@@ -92,29 +93,32 @@ public:
   /// \name Elements
   /// @{
 
-  Index number_of_vertices() const { return Index(halfedge_of_vertex_.size()); }
-  Index number_of_halfedges() const { return Index(origin_.size()); }
-  Index number_of_edges() const { return Index(halfedge_of_edge_.size()); }
-  Index number_of_faces() const { return Index(origin_.size() / 3); }
+  Index number_of_vertices() const { return Index(halfedge_of_vertex_.size()); } ///< isolated ones included
+  Index number_of_halfedges() const { return Index(origin_.size()); }            ///< three for each face
+  Index number_of_edges() const { return Index(halfedge_of_edge_.size()); }      ///< inside and on the border
+  Index number_of_faces() const { return Index(origin_.size() / 3); }            ///< triangles
 
-  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
-  static Index face(Index h) { return h / 3; }
+  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }     ///< the next side of the face, counterclockwise
+  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; } ///< the next side of the face, clockwise
+  static Index face(Index h) { return h / 3; }                          ///< the face on the left of `h`
 
-  Index origin(Index h) const { return origin_[h]; }
-  Index target(Index h) const { return origin_[next(h)]; }
+  Index origin(Index h) const { return origin_[h]; }                    ///< the vertex where `h` begins
+  Index target(Index h) const { return origin_[next(h)]; }              ///< the vertex where `h` ends
   Index apex(Index h) const { return origin_[previous(h)]; }   ///< the vertex of the face opposite to `h`
   Index twin(Index h) const { return twin_[h]; }               ///< `null_index` on the border
-  Index edge(Index h) const { return edge_[h]; }
+  Index edge(Index h) const { return edge_[h]; }               ///< the edge of `h`
   Index edge_halfedge(Index e) const { return halfedge_of_edge_[e]; } ///< the halfedge of `e` with the smaller index
 
   /// a halfedge that begins at `v`: for a border vertex the one on the border,
   /// `null_index` for an isolated vertex.
   Index vertex_halfedge(Index v) const { return halfedge_of_vertex_[v]; }
 
-  bool is_border(Index h) const { return twin_[h] == null_index; }
-  bool is_border_edge(Index e) const { return is_border(halfedge_of_edge_[e]); }
+  bool is_border(Index h) const { return twin_[h] == null_index; } ///< `true` iff `h` has no twin
+  bool is_border_edge(Index e) const { return is_border(halfedge_of_edge_[e]); } ///< `true` iff `e` has one face
+
+  /// `true` iff `v` has no face.
   bool is_isolated_vertex(Index v) const { return halfedge_of_vertex_[v] == null_index; }
+  /// `true` iff `v` lies on an edge with one face.
   bool is_border_vertex(Index v) const { return !is_isolated_vertex(v) && is_border(halfedge_of_vertex_[v]); }
 
   /// the next halfedge that begins at `origin(h)`, counterclockwise;
@@ -156,10 +160,10 @@ public:
   /// \name Lengths
   /// @{
 
-  const NT& length(Index e) const { return length_[e]; }
-  const NT& halfedge_length(Index h) const { return length_[edge_[h]]; }
-  void set_length(Index e, const NT& l) { length_[e] = l; }
-  const std::vector<NT>& lengths() const { return length_; }
+  const NT& length(Index e) const { return length_[e]; }                  ///< of the edge `e`
+  const NT& halfedge_length(Index h) const { return length_[edge_[h]]; }  ///< of the edge of `h`
+  void set_length(Index e, const NT& l) { length_[e] = l; }               ///< changes the length of the edge `e`
+  const std::vector<NT>& lengths() const { return length_; }              ///< by edge
 
   /// @}
 
@@ -244,22 +248,29 @@ inline std::vector<std::uint32_t> glue_triangles(const std::vector<std::array<st
 struct Surface_components
 {
   std::vector<std::uint32_t> component_of_vertex;  ///< `null_index` for isolated vertices
+
+  /// One connected component.
   struct Component
   {
-    std::uint32_t first_face = 0;
-    std::size_t number_of_vertices = 0, number_of_edges = 0, number_of_faces = 0, number_of_borders = 0;
+    std::uint32_t first_face = 0;         ///< its face with the smallest index
+    std::size_t number_of_vertices = 0;   ///< its vertices
+    std::size_t number_of_edges = 0;      ///< its edges
+    std::size_t number_of_faces = 0;      ///< its triangles
+    std::size_t number_of_borders = 0;    ///< its border cycles
+
     /// the Euler characteristic |T| - |E| + |V|.
     std::ptrdiff_t euler_characteristic() const
     {
       return std::ptrdiff_t(number_of_faces) - std::ptrdiff_t(number_of_edges) + std::ptrdiff_t(number_of_vertices);
     }
+    /// the number of handles.
     std::size_t genus() const
     {
       return std::size_t((2 - euler_characteristic() - std::ptrdiff_t(number_of_borders)) / 2);
     }
   };
-  std::vector<Component> components;
-  std::size_t number_of_isolated_vertices = 0;
+  std::vector<Component> components;               ///< in the order of their first face
+  std::size_t number_of_isolated_vertices = 0;     ///< vertices without a face
 };
 
 /// \ingroup PkgConformalEquivalenceMetric

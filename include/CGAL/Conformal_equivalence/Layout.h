@@ -30,7 +30,7 @@ struct Transition
 {
   std::uint32_t halfedge;            ///< the one with the smaller index
   std::array<NT, 2> rotation;        ///< of absolute value 1
-  std::array<NT, 2> translation;
+  std::array<NT, 2> translation;     ///< a point of the plane
 };
 
 /// \ingroup PkgConformalEquivalenceLayout
@@ -39,7 +39,7 @@ struct Transition
 template <typename NT_ = double>
 struct Layout
 {
-  typedef NT_ NT;
+  typedef NT_ NT; ///< number type of the coordinates
 
   /// by halfedge `h` of the input triangulation: where `target(h)` lies in the
   /// triangle of `h`. Corners of a vertex that no cut separates are equal.
@@ -47,6 +47,7 @@ struct Layout
   /// largest relative difference of an edge's length, as laid out and rounded, from its length in the metric
   double length_error = 0;
   std::vector<Transition<NT> > transitions;  ///< one for every cut edge
+
   /// `OK`, or `WRONG_TOPOLOGY`: the surface or what the cuts leave of it is not connected
   Status status = Status::OK;
 };
@@ -67,10 +68,10 @@ enum class Layout_frame
 template <typename Vertex>
 struct Pinned_frame
 {
-  Vertex first;
-  std::array<double, 2> first_point;
-  Vertex second;
-  std::array<double, 2> second_point;
+  Vertex first;                        ///< one vertex
+  std::array<double, 2> first_point;   ///< where it lies
+  Vertex second;                       ///< another vertex
+  std::array<double, 2> second_point;  ///< where that lies
 };
 
 } // namespace Conformal_equivalence

@@ -118,8 +118,8 @@ inline Surface_mesh_parameterization::Error_code to_error_code(Status status)
 struct Surface_topology
 {
   std::size_t number_of_vertices = 0;          ///< isolated ones included
-  std::size_t number_of_edges = 0;
-  std::size_t number_of_faces = 0;
+  std::size_t number_of_edges = 0;             ///< edges with a face
+  std::size_t number_of_faces = 0;             ///< triangles
   std::size_t number_of_isolated_vertices = 0; ///< vertices without a face: carried through untouched
   std::size_t number_of_components = 0;        ///< of the faces
   std::size_t number_of_borders = 0;           ///< border cycles
@@ -137,7 +137,14 @@ struct Surface_topology
 struct Statistics
 {
   /// Wall-clock seconds by stage; zero for stages that did not run.
-  struct Seconds { double import = 0, solve = 0, cut = 0, layout = 0, verify = 0; };
+  struct Seconds
+  {
+    double import = 0;  ///< from the mesh to arrays
+    double solve = 0;   ///< conditions, Newton's method, verdict on the metric
+    double cut = 0;     ///< cutting
+    double layout = 0;  ///< laying out
+    double verify = 0;  ///< orientations of the triangles
+  };
 
   std::size_t number_of_iterations = 0;        ///< Newton steps: linearizations with an accepted step
   std::size_t number_of_linear_iterations = 0; ///< iterations of the preconditioned conjugate gradient method
@@ -149,7 +156,7 @@ struct Statistics
   double angle_defect_spread = 0;              ///< total angle added to inexact targets to meet Gauss-Bonnet (radians)
   std::size_t number_of_regularized_rows = 0;  ///< zero rows of the Hessian that had to be regularized
   std::vector<double> residuals;               ///< the residual before each Newton step, and at the end
-  Seconds seconds;
+  Seconds seconds;                             ///< time by stage
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -157,11 +164,12 @@ struct Statistics
 template <typename TriangleMesh>
 struct [[nodiscard]] Flattening_report
 {
-  typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor;
-  typedef typename boost::graph_traits<TriangleMesh>::edge_descriptor   edge_descriptor;
-  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor   face_descriptor;
+  typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor; ///< a vertex of the mesh
+  typedef typename boost::graph_traits<TriangleMesh>::edge_descriptor   edge_descriptor;   ///< an edge of the mesh
+  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor   face_descriptor;   ///< a face of the mesh
 
-  Status status = Status::OK;
+  Status status = Status::OK; ///< what happened
+
   /// How much: see the documentation of the status.
   double amount = 0;
 
@@ -169,16 +177,17 @@ struct [[nodiscard]] Flattening_report
   /// Each with its position in `vertices(tm)` and `faces(tm)`; an edge is named
   /// by the positions of its two vertices.
   /// @{
-  std::vector<vertex_descriptor> vertices;
-  std::vector<edge_descriptor> edges;
-  std::vector<face_descriptor> faces;
-  std::vector<std::size_t> vertex_indices;
-  std::vector<std::array<std::size_t, 2> > edge_indices;
-  std::vector<std::size_t> face_indices;
+  std::vector<vertex_descriptor> vertices;                 ///< vertices at fault
+  std::vector<edge_descriptor> edges;                      ///< edges at fault
+  std::vector<face_descriptor> faces;                      ///< faces at fault
+  std::vector<std::size_t> vertex_indices;                 ///< positions of `vertices`
+  std::vector<std::array<std::size_t, 2> > edge_indices;   ///< positions of the ends of `edges`
+  std::vector<std::size_t> face_indices;                   ///< positions of `faces`
   /// @}
 
-  Surface_topology topology;
-  Statistics statistics;
+  Surface_topology topology; ///< what the surface was found to be
+  Statistics statistics;     ///< figures of the run
+
   /// Largest relative difference of an edge length in the layout from the length
   /// that the metric gives it; zero if nothing was laid out.
   double layout_length_error = 0;
@@ -266,14 +275,24 @@ enum class Newton_strategy
 
 /// \ingroup PkgConformalEquivalenceEnums
 /// What a visitor is told that begins.
-enum class Stage { IMPORT, SOLVE, CUT, LAYOUT, VERIFY };
+enum class Stage
+{
+  IMPORT, ///< from the mesh to arrays
+  SOLVE,  ///< Newton's method
+  CUT,    ///< cutting the surface open
+  LAYOUT, ///< from lengths to points of the plane
+  VERIFY  ///< orientations of the triangles
+};
 
 /// \ingroup PkgConformalEquivalenceStatus
 /// The visitor that does nothing: model of `ConformalEquivalenceVisitor`.
 struct Default_visitor
 {
+  /// does nothing.
   void on_stage(Stage) {}
+  /// does nothing.
   void on_iteration(std::size_t /* iteration */, double /* residual */) {}
+  /// returns `true`.
   bool go_further() { return true; }
 };
 

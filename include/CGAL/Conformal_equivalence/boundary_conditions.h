@@ -123,17 +123,20 @@ Conformal_conditions<NT> read_conditions(const Imported_mesh<TriangleMesh, NT>& 
 /// vertices of the border on which `corners[0]` lies. Linear in the length of that border.
 ///
 /// \param tm a triangle mesh
-/// \param corners four different vertices of one border
+/// \param corners four different vertices of one border. If `corners[0]` is the null vertex, as when
+///        `select_rectangle_corners()` found none, nothing is written.
 /// \param border_angle_map a writable property map with key type
 ///        `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type `double` (radians)
 ///
-/// \pre `corners[0]` is a border vertex.
+/// \pre `corners[0]` is a border vertex or null.
 template <typename TriangleMesh, typename VertexAngleMap>
 void prescribe_rectangle(const TriangleMesh& tm,
                          const std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4>& corners,
                          VertexAngleMap border_angle_map)
 {
   typedef typename boost::graph_traits<TriangleMesh>::halfedge_descriptor halfedge_descriptor;
+  if(corners[0] == boost::graph_traits<TriangleMesh>::null_vertex())
+    return;
   halfedge_descriptor first = halfedge(corners[0], tm);
   for(halfedge_descriptor h : halfedges_around_target(corners[0], tm))
     if(is_border(h, tm))
@@ -169,15 +172,16 @@ void prescribe_rectangle(const TriangleMesh& tm,
 ///   \cgalParamNBegin{vertex_point_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
 ///   \cgalParamNBegin{edge_length_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
 ///   \cgalParamNBegin{flattening_report}
-///     \cgalParamDescription{is told why there are no corners: statuses of `import_mesh()`, `WRONG_TOPOLOGY`,
-///       `MISSING_CONDITION` (fewer than four border vertices), `ANGLE_OUT_OF_RANGE` (more than four
-///       border vertices with a single triangle, which cannot be straight)}
+///     \cgalParamDescription{is told why there are no corners}
 ///     \cgalParamType{`std::reference_wrapper<Flattening_report<TriangleMesh> >`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
 /// \return the corners in their order along the border (as halfedges `next(bhd)` run); four null vertices if there are none.
+///         The report then has a status of `import_mesh()` or of the solver, `WRONG_TOPOLOGY`, `MISSING_CONDITION` (fewer than
+///         four border vertices), or `ANGLE_OUT_OF_RANGE` (more than four border vertices with a single triangle,
+///         which cannot be straight).
 template <typename TriangleMesh, typename NamedParameters = parameters::Default_named_parameters>
 std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4>
 select_rectangle_corners(const TriangleMesh& tm,
@@ -188,20 +192,14 @@ select_rectangle_corners(const TriangleMesh& tm,
   typedef boost::graph_traits<TriangleMesh> Graph_traits;
   CGAL_precondition(is_border(bhd, tm));
 
-  Flattening_report<TriangleMesh> report;
   std::array<typename Graph_traits::vertex_descriptor, 4> corners;
   corners.fill(Graph_traits::null_vertex());
 
   const Imported_mesh<TriangleMesh> mesh = import_mesh(tm, np);
-  report.status = mesh.status;
-  internal::name_elements(mesh, mesh.faulty_vertices, mesh.faulty_edges, mesh.faulty_faces, report);
-  if(is_success(report.status))
-  {
-    report.topology = surface_topology(mesh.triangulation, connected_components(mesh.triangulation));
-    if(!report.topology.is_disk())
-      report.status = Status::WRONG_TOPOLOGY;
-  }
-  if(is_success(report.status))
+  Flattening_report<TriangleMesh> report = internal::import_report(mesh);
+  if(bool(report) && !report.topology.is_disk())
+    report.status = Status::WRONG_TOPOLOGY;
+  if(bool(report))
   {
     const std::uint32_t first = mesh.triangulation.next_on_border(mesh.index_of_halfedge(opposite(bhd, tm)));
     const internal::Rectangle_corners found = internal::select_rectangle_corners(mesh.triangulation, first);

@@ -64,12 +64,14 @@ template <typename NT_ = double, typename SolverTraits_ = Default>
 class Conformal_metric_solver
 {
 public:
-  typedef NT_ NT;
+  typedef NT_ NT;                                     ///< number type of lengths and of u
+
+  /// the linear solver
   typedef typename Default::Get<SolverTraits_, Default_solver_traits>::type Solver_traits;
-  typedef Intrinsic_triangulation<NT> Triangulation;
-  typedef typename Triangulation::Index Index;
-  typedef Conformal_metric<NT> Metric;
-  typedef typename Metric::Wide_number Wide_number;
+  typedef Intrinsic_triangulation<NT> Triangulation;  ///< the surface
+  typedef typename Triangulation::Index Index;        ///< of vertices, edges and faces
+  typedef Conformal_metric<NT> Metric;                ///< what is found
+  typedef typename Metric::Wide_number Wide_number;   ///< type of the last residual
 
   /// takes the surface. Its lengths need not satisfy the triangle inequality. Linear time.
   /// \pre all lengths are positive and finite; no vertex is in `non_manifold_vertices(t)`.
@@ -85,7 +87,10 @@ public:
   Conformal_metric_solver(const Conformal_metric_solver&) = delete;
   Conformal_metric_solver& operator=(const Conformal_metric_solver&) = delete;
 
+  /// the surface, with the lengths given.
   const Triangulation& triangulation() const { return triangulation_; }
+
+  /// its connected components.
   const Surface_components& components() const { return pieces_; }
 
   /// finds the metric with the given conditions. Where no u is fixed on a component, the sum of
@@ -346,7 +351,8 @@ private:
       Vertex_vector d;
       bool converged;
       result.statistics.number_of_linear_iterations
-        += linear_.conjugate_gradients(energy_->weights(), residual, 1e-6, 100, d, converged);
+        += linear_.conjugate_gradients(energy_->weights(), residual, 1e-3, 100, d, converged);
+      center(d);
       std::vector<Wide_number> moved = s;
       for(Index v = 0; v < u.size(); ++v)
         if(d[v] != 0)

@@ -59,7 +59,7 @@ inline double scaled_to(const Scaled_number& x, int exponent)
   return std::scalbn(x.mantissa, x.exponent - exponent);
 }
 
-inline double log(const Scaled_number& x)
+inline double logarithm(const Scaled_number& x)
 {
   return std::log(x.mantissa) + x.exponent * 0.69314718055994530942;
 }
@@ -129,21 +129,21 @@ inline Triangle_frame frame_from_lengths(std::array<double, 3> l)
   return frame;
 }
 
-typedef std::array<double, 3> Vector;
+typedef std::array<double, 3> Space_vector;
 
-inline double largest_coordinate(const Vector& v)
+inline double largest_coordinate(const Space_vector& v)
 {
   return (std::max)(std::fabs(v[0]), (std::max)(std::fabs(v[1]), std::fabs(v[2])));
 }
 
-inline double length(const Vector& v)
+inline double euclidean_norm(const Space_vector& v)
 {
   return std::hypot(v[0], v[1], v[2]);
 }
 
 // The frame from the edge vectors of a triangle in space (e[i] goes from vertex i+1 to vertex i+2): exact in
 // the angles of caps and needles as far as the vectors are.
-inline Triangle_frame frame_from_edge_vectors(std::array<Vector, 3> e)
+inline Triangle_frame frame_from_edge_vectors(std::array<Space_vector, 3> e)
 {
   Triangle_frame frame;
   const double largest = (std::max)(largest_coordinate(e[0]),
@@ -151,22 +151,22 @@ inline Triangle_frame frame_from_edge_vectors(std::array<Vector, 3> e)
   if(!(largest > 0) || !std::isfinite(largest))
     return frame;
   frame.exponent = binary_exponent(largest);
-  for(Vector& e_i : e)
+  for(Space_vector& e_i : e)
     for(double& coordinate : e_i)
       coordinate = std::scalbn(coordinate, -frame.exponent);
 
-  const std::array<double, 3> l = {{ length(e[0]), length(e[1]), length(e[2]) }};
+  const std::array<double, 3> l = {{ euclidean_norm(e[0]), euclidean_norm(e[1]), euclidean_norm(e[2]) }};
   choose_frame_vertices(l, frame);
-  const Vector& b = e[frame.second()];
-  const Vector& c = e[frame.first];           // one of the two ends, the other begins at the origin
-  const Vector cross = {{ difference_of_products(b[1], c[2], b[2], c[1]),
+  const Space_vector& b = e[frame.second()];
+  const Space_vector& c = e[frame.first];           // one of the two ends, the other begins at the origin
+  const Space_vector cross = {{ difference_of_products(b[1], c[2], b[2], c[1]),
                           difference_of_products(b[2], c[0], b[0], c[2]),
                           difference_of_products(b[0], c[1], b[1], c[0]) }};
   frame.length = l[frame.second()];
   if(!(frame.length > 0))
     return frame;
   frame.x = -(b[0] * c[0] + b[1] * c[1] + b[2] * c[2]) / frame.length;
-  frame.y = length(cross) / frame.length;
+  frame.y = euclidean_norm(cross) / frame.length;
   return frame;
 }
 
@@ -292,7 +292,7 @@ halfedges_of_face(const TriangleMesh& tm, typename boost::graph_traits<TriangleM
 }
 
 template <typename Point>
-Vector difference(const Point& q, const Point& p)
+Space_vector difference(const Point& q, const Point& p)
 {
   return {{ CGAL::to_double(q.x() - p.x()), CGAL::to_double(q.y() - p.y()), CGAL::to_double(q.z() - p.z()) }};
 }
@@ -315,7 +315,7 @@ Triangle_frame triangle_frame(const TriangleMesh& tm,
   {
     const auto points = parameters::choose_parameter(
       parameters::get_parameter(np, internal_np::vertex_point), get_const_property_map(CGAL::vertex_point, tm));
-    std::array<Vector, 3> e;
+    std::array<Space_vector, 3> e;
     for(std::size_t i = 0; i < 3; ++i)
       e[i] = difference(get(points, target(h[(i + 2) % 3], tm)), get(points, target(h[(i + 1) % 3], tm)));
     return frame_from_edge_vectors(e);
@@ -375,6 +375,7 @@ double quasi_conformal_factor(const TriangleMesh& tm,
 template <typename TriangleMesh>
 struct Conformal_distortion
 {
+  /// a face of the mesh.
   typedef typename boost::graph_traits<TriangleMesh>::face_descriptor face_descriptor;
 
   /// the mean of the quasi-conformal factor, weighted by the areas of the faces in the mesh; >= 1;
@@ -492,14 +493,14 @@ void summarize(const std::vector<Face_distortion>& faces, Conformal_distortion<T
 {
   const Scaled_number total = total_area(faces, [](const Face_distortion& f) { return f.area; });
   const Scaled_number layout_total = total_area(faces, [](const Face_distortion& f) { return f.layout_area; });
-  const double log_total_ratio = log(layout_total) - log(total);
+  const double log_total_ratio = logarithm(layout_total) - logarithm(total);
 
   double excess = 0, squares = 0;                  // the mean of factor - 1 loses no digits near 1
   Value_range ratios;
   for(const Face_distortion& f : faces)
   {
     const double weight = scaled_to(f.area, total.exponent) / total.mantissa;
-    const double ratio = f.layout_area.mantissa > 0 ? log(f.layout_area) - log(f.area) - log_total_ratio
+    const double ratio = f.layout_area.mantissa > 0 ? logarithm(f.layout_area) - logarithm(f.area) - log_total_ratio
                                                     : -(std::numeric_limits<double>::infinity)();
     ratios.include(ratio);
     if(weight > 0)

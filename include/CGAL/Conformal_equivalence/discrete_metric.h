@@ -337,6 +337,7 @@ template <typename NT>
 struct Log_scale_factors
 {
   std::vector<NT> log_scale_factors;  ///< u, by vertex; 0 for isolated vertices
+
   /// the largest |log(l1 / l0) - (u_i + u_j) / 2| of an edge, that is, relative difference of
   /// lengths: zero, up to rounding, iff the metrics are conformally equivalent
   NT residual = NT(0);
@@ -434,19 +435,6 @@ NT dirichlet_energy(const Intrinsic_triangulation<NT>& t, const std::vector<NT>&
 /// @}
 
 namespace internal {
-
-// What the import of a mesh found.
-template <typename TriangleMesh, typename NT>
-Flattening_report<TriangleMesh> import_report(const Imported_mesh<TriangleMesh, NT>& mesh)
-{
-  Flattening_report<TriangleMesh> report;
-  report.status = mesh.status;
-  if(mesh.status == Status::OK)
-    report.topology = surface_topology(mesh.triangulation, connected_components(mesh.triangulation));
-  else
-    name_elements(mesh, mesh.faulty_vertices, mesh.faulty_edges, mesh.faulty_faces, report);
-  return report;
-}
 
 // Imports `tm` and hands it to `use` if nothing is wrong with it.
 template <typename TriangleMesh, typename NamedParameters, typename Use>

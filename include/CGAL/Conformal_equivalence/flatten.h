@@ -91,12 +91,10 @@ private:
   void import_lengths(const NamedParameters& np)
   {
     set_lengths(mesh, np);
-    report.status = mesh.status;
-    name_elements(mesh, mesh.faulty_vertices, mesh.faulty_edges, mesh.faulty_faces, report);
-    if(!bool(report))
-      return;
-    report.topology = surface_topology(mesh.triangulation, connected_components(mesh.triangulation));
-    if(!report.topology.is_disk())
+    const Statistics statistics = report.statistics;
+    report = import_report(mesh);
+    report.statistics = statistics;
+    if(bool(report) && !report.topology.is_disk())
       report.status = Status::WRONG_TOPOLOGY;
   }
 

@@ -55,8 +55,8 @@ enum class Injectivity
 template <typename TriangleMesh>
 struct Layout_verdict
 {
-  typedef typename boost::graph_traits<TriangleMesh>::halfedge_descriptor   halfedge_descriptor;
-  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor       face_descriptor;
+  typedef typename boost::graph_traits<TriangleMesh>::halfedge_descriptor   halfedge_descriptor; ///< of the mesh
+  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor       face_descriptor;     ///< of the mesh
 
   std::size_t number_of_flipped_triangles = 0;      ///< the size of `flipped_faces`
   std::size_t number_of_degenerate_triangles = 0;   ///< the size of `degenerate_faces`

@@ -53,15 +53,17 @@ template <typename TriangleMesh_, typename SolverTraits_ = Default>
 class Conformal_equivalence_parameterizer_3
 {
 public:
-  typedef TriangleMesh_ Triangle_mesh;
-  typedef TriangleMesh_ TriangleMesh;
-  typedef typename Default::Get<SolverTraits_, Conformal_equivalence::Default_solver_traits>::type Solver_traits;
-  typedef Conformal_equivalence::Flattening_report<Triangle_mesh> Report;
+  typedef TriangleMesh_ Triangle_mesh; ///< type of the mesh
+  typedef TriangleMesh_ TriangleMesh;  ///< type of the mesh, under the name of the concept
 
-  typedef typename boost::graph_traits<Triangle_mesh>::vertex_descriptor   vertex_descriptor;
-  typedef typename boost::graph_traits<Triangle_mesh>::halfedge_descriptor halfedge_descriptor;
-  typedef typename boost::graph_traits<Triangle_mesh>::edge_descriptor     edge_descriptor;
-  typedef typename boost::graph_traits<Triangle_mesh>::face_descriptor     face_descriptor;
+  /// the linear solver
+  typedef typename Default::Get<SolverTraits_, Conformal_equivalence::Default_solver_traits>::type Solver_traits;
+  typedef Conformal_equivalence::Flattening_report<Triangle_mesh> Report; ///< what `flattening_report` receives
+
+  typedef typename boost::graph_traits<Triangle_mesh>::vertex_descriptor   vertex_descriptor;   ///< of the mesh
+  typedef typename boost::graph_traits<Triangle_mesh>::halfedge_descriptor halfedge_descriptor; ///< of the mesh
+  typedef typename boost::graph_traits<Triangle_mesh>::edge_descriptor     edge_descriptor;     ///< of the mesh
+  typedef typename boost::graph_traits<Triangle_mesh>::face_descriptor     face_descriptor;     ///< of the mesh
 
   /// natural border, nothing but coordinates comes back.
   Conformal_equivalence_parameterizer_3()
@@ -81,12 +83,12 @@ public:
       })
   {}
 
-  /// flattens the connected component of `bhd`. The maps are written iff `OK` is returned.
+  /// flattens the connected component of `bhd`. The maps are written iff `OK` is returned. The index
+  /// map is not used: the package has indices of its own.
   ///
   /// \param tm a triangle mesh
   /// \param bhd a halfedge of the border of a topological disk
   /// \param uvmap receives the coordinates of the vertices of the component
-  /// \param vimap unused: the package has indices of its own
   /// \param vpmap receives `true` at every vertex of the component
   ///
   /// \return `to_error_code()` of the status that the report says.

@@ -132,8 +132,8 @@ function attribute(program, name, values) {
   const a = gl.getAttribLocation(program, name); gl.enableVertexAttribArray(a); gl.vertexAttribPointer(a, 3, gl.FLOAT, false, 0, 0); }
 function start() {
   const program = gl.createProgram();
-  gl.attachShader(program, shader(gl.VERTEX_SHADER, `attribute vec3 place, texture; uniform mat3 turn; uniform vec2 zoom; varying vec3 p; varying highp vec3 t;
-    void main() { p = turn * place; t = texture; gl_Position = vec4(p.xy * zoom, -p.z * .2, 1.); }`));
+  gl.attachShader(program, shader(gl.VERTEX_SHADER, `attribute vec3 place, board; uniform mat3 turn; uniform vec2 zoom; varying vec3 p; varying highp vec3 t;
+    void main() { p = turn * place; t = board; gl_Position = vec4(p.xy * zoom, -p.z * .2, 1.); }`));
   gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `#extension GL_OES_standard_derivatives : enable
     precision highp float; varying vec3 p; varying highp vec3 t;
     void main() { vec3 n = normalize(cross(dFdx(p), dFdy(p))); vec2 q = t.xy / t.z;
@@ -142,7 +142,7 @@ function start() {
       vec3 color = mix(vec3(.96, .96, .94), vec3(.27, .43, .63), c);
       gl_FragColor = vec4(color * (.35 + .65 * abs(n.z)), 1.); }`));
   gl.linkProgram(program); gl.useProgram(program);
-  attribute(program, "place", new Float32Array(points)); attribute(program, "texture", new Float32Array(texture));
+  attribute(program, "place", new Float32Array(points)); attribute(program, "board", new Float32Array(texture));
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
   const indices = new Uint32Array(triangles); gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
   gl.enable(gl.DEPTH_TEST); gl.clearColor(.98, .98, .97, 1.);

@@ -88,8 +88,8 @@ namespace IO {
 /// if `library` is empty.
 struct OBJ_material
 {
-  std::string library;
-  std::string name = "layout";
+  std::string library;         ///< name of the file, without a folder
+  std::string name = "layout"; ///< name of the material
 };
 
 /*!

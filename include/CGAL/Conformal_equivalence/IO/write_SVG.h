@@ -45,9 +45,9 @@ struct SVG_options
   double square = 0;
   /// The longer side of the drawing.
   double size = 1000;
-  /// Up to this many faces each triangle has its outline,
-  std::size_t maximum_number_of_outlined_faces = 20000;
-  /// up to this many it is drawn as a triangle; the triangles of larger meshes become an image of pixels.
+  /// Up to this many faces the edges are drawn, apart from very short ones;
+  std::size_t maximum_number_of_faces_with_edges = 20000;
+  /// up to this many the triangles are drawn as such; those of larger meshes become an image of pixels.
   std::size_t maximum_number_of_drawn_faces = 250000;
 };
 
@@ -96,6 +96,7 @@ class SVG_writer
   typedef std::array<std::int64_t, 2>                 Grid_point;
 
   static constexpr std::size_t number_of_classes = 64;
+  static constexpr double shortest_edge_drawn = 4; // shorter ones would only hide the colours
 
 public:
   SVG_writer(const TriangleMesh& tm, const HalfedgeUVMap& uv, const FaceScalarMap& scalar,
@@ -113,7 +114,7 @@ public:
 
   void write(Text_buffer& out) const
   {
-    const double margin = 20, legend_width = 150;
+    const double margin = 20, legend_width = 200;
     out << "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\""
         << -margin << ' ' << -margin << ' ' << m_frame.width + 2 * margin + legend_width << ' '
         << (std::max)(m_frame.height, 360.) + 2 * margin
@@ -186,7 +187,7 @@ private:
       out << "\"/>\n";
     }
     out << "</g>\n";
-    if(number_of_faces() <= m_options.maximum_number_of_outlined_faces)
+    if(number_of_faces() <= m_options.maximum_number_of_faces_with_edges)
       write_edges(out);
   }
 
@@ -218,6 +219,8 @@ private:
         continue;
       const Point p = corner_value(m_uv, prev(h, m_tm)), q = corner_value(m_uv, h);
       if(! is_finite(p) || ! is_finite(q))
+        continue;
+      if(std::hypot(q[0] - p[0], q[1] - p[1]) * m_frame.scale < shortest_edge_drawn)
         continue;
       const Grid_point a = m_frame.in_hundredths(p), b = m_frame.in_hundredths(q);
       out << 'M' << a[0] << ' ' << a[1];
@@ -344,24 +347,25 @@ private:
     out << "<defs><pattern id=\"checkerboard\" patternUnits=\"userSpaceOnUse\" x=\"" << std::fmod(origin[0], period)
         << "\" y=\"" << std::fmod(origin[1], period) << "\" width=\"" << period << "\" height=\"" << period
         << "\"><path d=\"M0 0h" << side << 'v' << period << 'h' << side << 'v' << -side << 'h' << -period
-        << "z\" fill=\"#000\" fill-opacity=\".28\"/></pattern></defs>\n";
+        << "z\" fill=\"#000\" fill-opacity=\".25\"/></pattern></defs>\n";
   }
 
   void write_legend(Text_buffer& out, double x) const
   {
-    const double height = 256, top = 50, step = height / number_of_classes;
+    const double height = 256, top = 50;
     out << "<g id=\"legend\"><text x=\"" << x << "\" y=\"" << top - 30 << "\">"
-        << escaped_for_xml(m_options.legend) << "</text>\n";
-    for(std::size_t c = 0; c < number_of_classes; ++c)
-      out << "<rect x=\"" << x << "\" y=\"" << top + double(number_of_classes - 1 - c) * step
-          << "\" width=\"24\" height=\"" << step + 0.5 << "\" fill=\"" << class_color(c) << "\"/>\n";
+        << escaped_for_xml(m_options.legend) << "</text>\n<defs><linearGradient id=\"colors\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
+    for(int i = 0; i <= 8; ++i)
+      out << "<stop offset=\"" << i / 8. << "\" stop-color=\"" << hexadecimal(sequential_color(i / 8.)) << "\"/>";
+    out << "</linearGradient></defs>\n<rect x=\"" << x << "\" y=\"" << top
+        << "\" width=\"24\" height=\"" << height << "\" fill=\"url(#colors)\"/>\n";
     if(! m_values.empty())
     {
       out << "<text x=\"" << x + 30 << "\" y=\"" << top + 12 << "\">" << short_text(m_values.upper) << "</text>\n"
           << "<text x=\"" << x + 30 << "\" y=\"" << top + height << "\">" << short_text(m_values.lower) << "</text>\n";
     }
     if(m_options.checkerboard)
-      out << "<text x=\"" << x << "\" y=\"" << top + height + 34 << "\" font-size=\"13\">squares: "
+      out << "<text x=\"" << x << "\" y=\"" << top + height + 34 << "\" font-size=\"13\">side of a square: "
           << short_text(m_options.square) << "</text>\n";
     out << "</g>\n";
   }

@@ -60,7 +60,7 @@ public:
   // multiplied by a power of two that brings them near 1.
   explicit Conformal_energy(const Triangulation& t, bool normalize = false)
     : t_(t), scale_(t.number_of_vertices(), NT(1)),
-      angle_sum_(t.number_of_vertices()), weight_(t.number_of_edges()), sensitivity_(t.number_of_vertices())
+      angle_sum_(t.number_of_vertices()), weight_(t.number_of_edges()), sum_(t.number_of_vertices())
   {
     using std::ldexp;
     const int exponent = normalize ? middle_exponent() : 0;
@@ -69,7 +69,7 @@ public:
       length_.push_back(static_cast<NT>(exponent == 0 ? l : Length(ldexp(l, -exponent))));
   }
 
-  // moves to u: computes angle sums, edge weights and rounding floors there.
+  // moves to u: computes angle sums and edge weights there.
   // Returns false if a length overflows, underflows or is no number.
   bool evaluate(const std::vector<NT>& u)
   {
@@ -80,6 +80,8 @@ public:
     bool is_finite = true;
     for(Index f = 0; f < t_.number_of_faces(); ++f)
       is_finite = add_triangle(3 * f) && is_finite;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      angle_sum_[v] = sum_[v].radians();
     return is_finite;
   }
 
@@ -87,10 +89,26 @@ public:
   const std::vector<NT>& weights() const { return weight_; }        // w, by edge
   const std::vector<Index>& broken_faces() const { return broken_; }
 
-  // what rounding alone may change in the angle sum at v, in units of epsilon:
-  // a corner's angle moves by (cot + cot of the two others) times a relative
-  // change of the lengths
-  const NT& sensitivity(Index v) const { return sensitivity_[v]; }
+  // How far rounding alone may move the angle sums, in units of epsilon, by vertex: a
+  // corner's angle moves by (cot + cot of the two others) times the relative change of
+  // the lengths. Linear time.
+  std::vector<NT> sensitivities() const
+  {
+    using std::abs;
+    std::vector<NT> result(t_.number_of_vertices(), NT(0));
+    for(Index h = 0; h < t_.number_of_halfedges(); h += 3)
+    {
+      const Incircle_form<NT> triangle(scaled_length(h), scaled_length(h + 1), scaled_length(h + 2));
+      if(!triangle.is_triangle || !(triangle.r > 0))
+        continue;
+      std::array<NT, 3> c;
+      for(int k = 0; k < 3; ++k)
+        c[k] = abs(cotangent(triangle, k));
+      for(int k = 0; k < 3; ++k)
+        result[t_.apex(h + k)] += 1 + c[(k + 1) % 3] + c[(k + 2) % 3];
+    }
+    return result;
+  }
 
   const NT& scale(Index v) const { return scale_[v]; }
   NT scaled_length(Index h) const
@@ -156,35 +174,36 @@ private:
 
   void clear()
   {
-    std::fill(angle_sum_.begin(), angle_sum_.end(), NT(0));
+    std::fill(sum_.begin(), sum_.end(), Angle_sum<NT>());
     std::fill(weight_.begin(), weight_.end(), NT(0));
-    std::fill(sensitivity_.begin(), sensitivity_.end(), NT(0));
     broken_.clear();
   }
 
-  bool add_triangle(Index h0)
+  // Adds the triangle of h; returns whether its lengths are positive and finite.
+  bool add_triangle(Index h)
   {
-    const std::array<Index, 3> v = {{t_.origin(h0), t_.origin(h0 + 1), t_.origin(h0 + 2)}};
-    const std::array<NT, 3> l = {{scaled_length(h0), scaled_length(h0 + 1), scaled_length(h0 + 2)}};
-    const NT perimeter = l[0] + l[1] + l[2];
-    const bool is_finite = l[0] > 0 && l[1] > 0 && l[2] > 0 && perimeter - perimeter == NT(0);
-
-    const Triangle_angles<NT> t = triangle_angles(l[0], l[1], l[2]);
-    if(t.is_broken)
-      broken_.push_back(Triangulation::face(h0));
-    for(int k = 0; k < 3; ++k)
+    const std::array<NT, 3> l = {{scaled_length(h), scaled_length(h + 1), scaled_length(h + 2)}};
+    const Incircle_form<NT> triangle(l[0], l[1], l[2]);
+    if(triangle.is_triangle && triangle.r > 0)
     {
-      const int apex = (k + 2) % 3; // opposite to side k
-      angle_sum_[v[apex]] += t.angle[k];
-      weight_[t_.edge(h0 + k)] += t.cotangent[k];
-      using std::abs;
-      sensitivity_[v[apex]] += 1 + abs(t.cotangent[(k + 1) % 3]) + abs(t.cotangent[(k + 2) % 3]);
+      const NT unit = 1 / triangle.s, y = triangle.r * unit;
+      for(int k = 0; k < 3; ++k)
+      {
+        sum_[t_.apex(h + k)].add(triangle.tangent[k] * unit, y);
+        weight_[t_.edge(h + k)] += cotangent(triangle, k);
+      }
     }
-    return is_finite;
+    else
+    {
+      broken_.push_back(Triangulation::face(h));
+      sum_[t_.apex(h + longest_side(l[0], l[1], l[2]))].add_straight();
+    }
+    return l[0] > 0 && l[1] > 0 && l[2] > 0 && triangle.s - triangle.s == NT(0);
   }
 
   const Triangulation& t_;
-  std::vector<NT> length_, scale_, angle_sum_, weight_, sensitivity_;
+  std::vector<NT> length_, scale_, angle_sum_, weight_;
+  std::vector<Angle_sum<NT> > sum_;
   std::vector<Index> broken_;
 };
 

@@ -85,13 +85,18 @@ private:
     return is_finite;
   }
 
-  double rounding_floor() const
+  // Below this a residual cannot be told from rounding. It is of interest, and
+  // hardly changes any more, when the residual has become small.
+  double rounding_floor()
   {
+    if(floor_ > 0 || statistics_.residual > 1e-4)
+      return floor_;
     double largest = 0;
-    for(std::size_t v = 0; v < residual_.size(); ++v)
+    const std::vector<double> sensitivity = energy_.sensitivities();
+    for(std::size_t v = 0; v < sensitivity.size(); ++v)
       if(solver_.graph().is_free(std::uint32_t(v)))
-        largest = (std::max)(largest, energy_.sensitivity(std::uint32_t(v)));
-    return 4 * std::numeric_limits<double>::epsilon() * largest;
+        largest = (std::max)(largest, sensitivity[v]);
+    return floor_ = 4 * std::numeric_limits<double>::epsilon() * largest;
   }
 
   void record(std::size_t iteration, double size)
@@ -142,7 +147,10 @@ private:
       return false;
     const double slope = dot(residual_, d);
     Vertex_vector trial(u.size()), r;
-    for(double t = 1; t > 1e-12; )
+    // where triangles are broken the Hessian may be nearly singular, and the step without bound
+    const double bound = 10 / largest_entry(d);
+    const double first = energy_.broken_faces().empty() || !(bound < 1) ? 1 : bound;
+    for(double t = first; t > 1e-12 * first; )
     {
       for(std::size_t v = 0; v < u.size(); ++v)
         trial[v] = u[v] + t * d[v];
@@ -263,6 +271,7 @@ private:
   Statistics& statistics_;
   Visitor& visitor_;
   Vertex_vector residual_;
+  double floor_ = 0;
   double radius_ = 0, step_norm_ = 0; // of the trust region
   bool at_boundary_ = false;
 };

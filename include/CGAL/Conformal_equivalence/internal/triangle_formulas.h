@@ -49,7 +49,8 @@ struct Number_constants<Double_double>
 template <typename NT>
 NT excess(const NT& a, const NT& b, const NT& c)
 {
-  return b < c ? NT((c - a) + b) : NT((b - a) + c);
+  const NT &longer = (std::max)(b, c), &shorter = (std::min)(b, c);
+  return (longer - a) + shorter;
 }
 
 // The incircle form of a triangle: its semiperimeter, r, and s-a, s-b, s-c.
@@ -96,7 +97,9 @@ NT angle(const Incircle_form<NT>& t, int side)
 template <typename NT>
 NT cotangent(const Incircle_form<NT>& t, int side)
 {
-  return (t.tangent[side] / t.r - t.r / t.tangent[side]) / 2;
+  const NT& x = t.tangent[side];
+  const NT q = t.r / x; // tan(alpha / 2)
+  return (1 - q) * (1 + q) / (2 * q);
 }
 
 // Angles and cotangents opposite to the sides a, b, c, extended to all positive
@@ -111,6 +114,12 @@ struct Triangle_angles
 };
 
 template <typename NT>
+int longest_side(const NT& a, const NT& b, const NT& c)
+{
+  return a > b ? (a > c ? 0 : 2) : (b > c ? 1 : 2);
+}
+
+template <typename NT>
 Triangle_angles<NT> triangle_angles(const NT& a, const NT& b, const NT& c)
 {
   const Incircle_form<NT> t(a, b, c);
@@ -122,7 +131,7 @@ Triangle_angles<NT> triangle_angles(const NT& a, const NT& b, const NT& c)
     result.cotangent[k] = result.is_broken ? NT(0) : internal::cotangent(t, k);
   }
   if(result.is_broken)
-    result.angle[a > b ? (a > c ? 0 : 2) : (b > c ? 1 : 2)] = Number_constants<NT>::pi();
+    result.angle[longest_side(a, b, c)] = Number_constants<NT>::pi();
   return result;
 }
 
@@ -144,7 +153,53 @@ Complex_number<NT> half_angle(const Incircle_form<NT>& t, int side)
   return {t.tangent[side], t.r};
 }
 
-// e^{i alpha}: the square of the above, of absolute value 1.
+// A sum of triangle corners, as the product of their half angles: one arc tangent at
+// the end instead of one for each. Every factor turns by less than pi / 2, so the
+// half turns can be counted.
+template <typename NT>
+class Angle_sum
+{
+public:
+  // adds the angle alpha, given by (x, y) = const * (cos alpha/2, sin alpha/2) with
+  // 0 < alpha < pi. The constant should not be far above 1.
+  void add(const NT& x, const NT& y)
+  {
+    z_ = z_ * Complex_number<NT>{x, y};
+    if(z_.im < 0 || (z_.im == 0 && z_.re < 0))
+    {
+      z_ = {-z_.re, -z_.im};
+      ++half_turns_;
+    }
+    const NT size = (z_.re < 0 ? NT(-z_.re) : z_.re) + z_.im;
+    if(size < tiny())
+      z_ = {z_.re / size, z_.im / size};
+  }
+
+  // adds the angle pi of a broken triangle
+  void add_straight()
+  {
+    z_ = {-z_.im, z_.re};
+    if(z_.im < 0 || (z_.im == 0 && z_.re < 0))
+    {
+      z_ = {-z_.re, -z_.im};
+      ++half_turns_;
+    }
+  }
+
+  NT radians() const
+  {
+    using std::atan2;
+    return 2 * (half_turns_ * Number_constants<NT>::pi() + atan2(z_.im, z_.re));
+  }
+
+private:
+  static NT tiny() { return NT(1e-30); }
+
+  Complex_number<NT> z_{NT(1), NT(0)};
+  int half_turns_ = 0;
+};
+
+// e^{i alpha}: the square of `half_angle()`, of absolute value 1.
 template <typename NT>
 Complex_number<NT> rotation(const Incircle_form<NT>& t, int side)
 {

@@ -43,14 +43,14 @@ Incircle_form<Wide> wide_triangle(const Intrinsic_triangulation<NT>& t, const st
   return Incircle_form<Wide>(wide_length(t, s, 3 * f), wide_length(t, s, 3 * f + 1), wide_length(t, s, 3 * f + 2));
 }
 
-// z * w, rescaled: only the argument counts
+// z * w, rescaled where it has become small: only the argument counts
 template <typename Wide>
 void multiply_argument(Complex_number<Wide>& z, const Complex_number<Wide>& w)
 {
   z = z * w;
-  const double size = 1 / (std::abs(static_cast<double>(z.re)) + std::abs(static_cast<double>(z.im)));
-  z.re = z.re * size;
-  z.im = z.im * size;
+  const double size = std::abs(static_cast<double>(z.re)) + std::abs(static_cast<double>(z.im));
+  if(size < 1e-30)
+    z = {z.re / size, z.im / size};
 }
 
 // Theta~ - Theta^ at every vertex where the angle sum is prescribed, 0 elsewhere.
@@ -76,11 +76,13 @@ std::vector<double> wide_residual(const Intrinsic_triangulation<NT>& t, const st
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
   {
     const Incircle_form<Wide> triangle = wide_triangle(t, s, f);
+    const double unit = 1 / static_cast<double>(triangle.s);
+    const Wide y = triangle.r * unit;
     for(int k = 0; k < 3; ++k)
     {
       const std::uint32_t apex = t.apex(3 * f + k);
       if(triangle.is_triangle && triangle.r > 0)
-        multiply_argument(z[apex], half_angle(triangle, k));
+        multiply_argument(z[apex], Complex{triangle.tangent[k] * unit, y});
       else if(!(triangle.tangent[k] > 0))
         multiply_argument(z[apex], Complex{Wide(0), Wide(1)});
     }

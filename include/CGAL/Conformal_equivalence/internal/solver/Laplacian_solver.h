@@ -248,7 +248,7 @@ public:
     }
     else
     {
-      matrix_ = std::make_unique<Matrix>(lower.rows(), lower.rows());
+      matrix_ = std::make_unique<Matrix>(int(lower.rows()), int(lower.rows()));
       for(int c = 0; c < lower.outerSize(); ++c)
         for(Eigen::SparseMatrix<double>::InnerIterator entry(lower, c); entry; ++entry)
         {
