@@ -284,32 +284,36 @@ Surface_components connected_components(const Intrinsic_triangulation<NT>& t)
   const Index null_index = Intrinsic_triangulation<NT>::null_index;
 
   Surface_components result;
-  std::vector<Index>& label = result.component_of_vertex;
-  label.assign(t.number_of_vertices(), null_index);
-  std::vector<Index> stack;
-  const auto enter = [&](Index v, Index component)
+  std::vector<Index> component_of_face(t.number_of_faces(), null_index), stack;
+  const auto enter = [&](Index f, Index component)
   {
-    if(label[v] != null_index)
+    if(component_of_face[f] != null_index)
       return;
-    label[v] = component;
-    stack.push_back(v);
+    component_of_face[f] = component;
+    stack.push_back(f);
   };
-  for(Index f = 0; f < t.number_of_faces(); ++f)
+  for(Index first = 0; first < t.number_of_faces(); ++first)
   {
-    if(label[t.origin(3 * f)] != null_index)
+    if(component_of_face[first] != null_index)
       continue;
     const Index component = Index(result.components.size());
     result.components.emplace_back();
-    result.components.back().first_face = f;
-    enter(t.origin(3 * f), component);
+    result.components.back().first_face = first;
+    enter(first, component);
     while(!stack.empty())
     {
-      const Index v = stack.back();
+      const Index f = stack.back();
       stack.pop_back();
-      t.for_each_outgoing(v, [&](Index h) { enter(t.target(h), component); enter(t.apex(h), component); });
+      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+        if(!t.is_border(h))
+          enter(t.face(t.twin(h)), component);
     }
   }
 
+  std::vector<Index>& label = result.component_of_vertex;
+  label.assign(t.number_of_vertices(), null_index);
+  for(Index h = 0; h < t.number_of_halfedges(); ++h)
+    label[t.origin(h)] = component_of_face[t.face(h)];
   for(Index v = 0; v < t.number_of_vertices(); ++v)
   {
     if(label[v] == null_index)
@@ -318,16 +322,16 @@ Surface_components connected_components(const Intrinsic_triangulation<NT>& t)
       ++result.components[label[v]].number_of_vertices;
   }
   for(Index f = 0; f < t.number_of_faces(); ++f)
-    ++result.components[label[t.origin(3 * f)]].number_of_faces;
+    ++result.components[component_of_face[f]].number_of_faces;
   for(Index e = 0; e < t.number_of_edges(); ++e)
-    ++result.components[label[t.origin(t.edge_halfedge(e))]].number_of_edges;
+    ++result.components[component_of_face[t.face(t.edge_halfedge(e))]].number_of_edges;
 
   std::vector<char> seen(t.number_of_halfedges(), 0);
   for(Index h = 0; h < t.number_of_halfedges(); ++h)
   {
     if(!t.is_border(h) || seen[h])
       continue;
-    ++result.components[label[t.origin(h)]].number_of_borders;
+    ++result.components[component_of_face[t.face(h)]].number_of_borders;
     for(Index b = h; !seen[b]; b = t.next_on_border(b))
       seen[b] = 1;
   }

@@ -191,8 +191,10 @@ private:
     typedef Exact_predicates_inexact_constructions_kernel Kernel;
     std::vector<std::uint32_t> flipped;
     const auto point = [&](std::uint32_t h) { return Kernel::Point_2(layout.corner[h][0], layout.corner[h][1]); };
+    const auto is_finite = [&](std::uint32_t h) { return std::isfinite(layout.corner[h][0]) && std::isfinite(layout.corner[h][1]); };
     for(std::uint32_t f = 0; f < mesh.triangulation.number_of_faces(); ++f)
-      if(CGAL::orientation(point(3 * f), point(3 * f + 1), point(3 * f + 2)) != CGAL::LEFT_TURN)
+      if(!is_finite(3 * f) || !is_finite(3 * f + 1) || !is_finite(3 * f + 2)
+         || CGAL::orientation(point(3 * f), point(3 * f + 1), point(3 * f + 2)) != CGAL::LEFT_TURN)
         flipped.push_back(f);
     if(flipped.empty())
       return;

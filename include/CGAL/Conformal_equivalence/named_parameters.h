@@ -29,9 +29,11 @@ namespace CGAL {
 // that a name added to CGAL's list breaks nothing here.
 namespace internal_np {
 
+/// \cond SKIP_IN_MANUAL
 #define CGAL_add_named_parameter(X, Y, Z) enum X { Y };
 #include <CGAL/Conformal_equivalence/internal/parameters_interface.h>
 #undef CGAL_add_named_parameter
+/// \endcond
 
 } // namespace internal_np
 
@@ -122,6 +124,7 @@ auto combine_named_parameters(const NamedParameters1& a, const NamedParameters2&
 
 namespace parameters {
 
+/// \cond SKIP_IN_MANUAL
 #define CGAL_add_named_parameter(X, Y, Z)                                           \
   template <typename K>                                                             \
   Conformal_equivalence::Conformal_named_parameters<K, internal_np::X> Z(const K& k) \
@@ -130,6 +133,7 @@ namespace parameters {
   }
 #include <CGAL/Conformal_equivalence/internal/parameters_interface.h>
 #undef CGAL_add_named_parameter
+/// \endcond
 
 } // namespace parameters
 } // namespace CGAL

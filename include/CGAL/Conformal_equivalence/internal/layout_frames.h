@@ -42,6 +42,22 @@ void apply_similarity(const Complex_number<Wide>& a, const Double_point& center,
   }
 }
 
+// A power of two of the size of the largest coordinate.
+template <typename Wide>
+double power_of_two_near(const std::vector<Complex_number<Wide> >& position)
+{
+  double largest = 0;
+  for(const Complex_number<Wide>& z : position)
+  {
+    const Double_point p = to_double_point(z);
+    largest = (std::max)(largest, (std::max)(std::abs(p[0]), std::abs(p[1])));
+  }
+  int exponent = 0;
+  if(largest > 0 && std::isfinite(largest))
+    std::frexp(largest, &exponent);
+  return std::ldexp(1., (std::max)(-1000, (std::min)(1000, exponent)));
+}
+
 // The number of absolute value 1 in the direction of (x, y), to all digits.
 template <typename Wide>
 Complex_number<Wide> unit_direction(double x, double y)
@@ -110,7 +126,13 @@ template <typename NT, typename Wide>
 void move_to_canonical_frame(const Intrinsic_triangulation<NT>& t, const std::vector<std::uint32_t>& wedge,
                              std::vector<Complex_number<Wide> >& position)
 {
-  const auto corner = [&](std::uint32_t h) { return to_double_point(position[wedge[h]]); };
+  const double unit = power_of_two_near(position); // areas and third moments must not leave the range of double
+  const auto scaled = [&](const Complex_number<Wide>& z)
+  {
+    const Double_point p = to_double_point(z);
+    return Double_point{{p[0] / unit, p[1] / unit}};
+  };
+  const auto corner = [&](std::uint32_t h) { return scaled(position[wedge[h]]); };
   const Area_moments m = area_moments(t, corner);
   double x = m.xx - m.yy, y = 2 * m.xy; // (cos, sin) of twice the angle of the axis
   if(std::hypot(x, y) > 1e-6 * (m.xx + m.yy))
@@ -133,13 +155,14 @@ void move_to_canonical_frame(const Intrinsic_triangulation<NT>& t, const std::ve
   double third = 0, absolute_third = 0;
   for(const Complex_number<Wide>& z : position)
   {
-    const Double_point p = to_double_point(z);
+    const Double_point p = scaled(z);
     const double along = (p[0] - m.barycentre[0]) * x + (p[1] - m.barycentre[1]) * y;
     third += along * along * along;
     absolute_third += std::abs(along * along * along);
   }
   const double turn = third < -1e-9 * absolute_third ? -1 : 1;
-  apply_similarity(unit_direction<Wide>(turn * x, -turn * y), m.barycentre, Double_point{{0, 0}}, position);
+  apply_similarity(unit_direction<Wide>(turn * x, -turn * y),
+                   Double_point{{m.barycentre[0] * unit, m.barycentre[1] * unit}}, Double_point{{0, 0}}, position);
 }
 
 // Brings the layout into the frame; returns the factor by which lengths were scaled.

@@ -341,25 +341,33 @@ public:
   }
 
   // Conjugate gradients for A(w) x = b from x = 0, preconditioned by the kept
-  // factor, until the residual is below `tolerance` times b in the norm of the
-  // preconditioner, or after `most` iterations. Returns the number of iterations; x is always a
-  // descent direction.
+  // factor, until no entry of the residual is larger than `tolerance` times the largest of b, or
+  // after `most` iterations; one solution with the factor each. Returns their number.
   std::size_t conjugate_gradients(const std::vector<double>& w, const Vertex_vector& b, double tolerance,
                                   std::size_t most, Vertex_vector& x, bool& converged)
   {
     std::size_t rows = 0;
     const Vertex_vector shift = regularization(graph_, w, rows);
+    const double goal = tolerance * largest_entry(b);
     Vertex_vector r = b, z, p;
+    double rz = 0;
     x.assign(b.size(), 0.);
-    converged = graph_.number_of_free == 0;
-    if(converged || (!has_factor_ && !factorize(w)) || !precondition(r, z))
+    converged = graph_.number_of_free == 0 || goal == 0;
+    if(!converged && !has_factor_ && !factorize(w))
       return 0;
-    p = z;
-    double rz = dot(r, z);
-    const double goal = tolerance * tolerance * rz, largest_b = largest_entry(b);
     std::size_t iteration = 0;
-    for(converged = rz == 0; !converged && iteration < most; ++iteration)
+    for(; !converged && iteration < most; ++iteration)
     {
+      if(!precondition(r, z))
+        break;
+      const double rz_new = dot(r, z);
+      if(iteration == 0)
+        p = z;
+      else
+        for(std::size_t v = 0; v < p.size(); ++v)
+          p[v] = z[v] + rz_new / rz * p[v];
+      rz = rz_new;
+
       Vertex_vector q = graph_.product(w, p);
       if(rows > 0)
         for(std::size_t v = 0; v < q.size(); ++v)
@@ -377,19 +385,7 @@ public:
         x[v] += step * p[v];
         r[v] -= step * q[v];
       }
-      if(largest_entry(r) <= 1e-10 * largest_b)
-      {
-        converged = true;
-        continue;
-      }
-      if(!precondition(r, z))
-        return iteration + 1;
-      const double rz_new = dot(r, z);
-      converged = rz_new <= goal;
-      const double beta = rz_new / rz;
-      for(std::size_t v = 0; v < p.size(); ++v)
-        p[v] = z[v] + beta * p[v];
-      rz = rz_new;
+      converged = largest_entry(r) <= goal;
     }
     return iteration;
   }

@@ -1,0 +1,11 @@
+// Flattens a triangle mesh: the package's main job as a command.
+// `flatten_mesh --help` tells how.
+
+#include "include/flatten_mesh/flatten_mesh.h"
+
+#include <iostream>
+
+int main(int argc, char* argv[])
+{
+  return flatten_mesh(argc, argv, std::cout, std::cerr);
+}

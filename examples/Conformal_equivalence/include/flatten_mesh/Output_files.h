@@ -1,0 +1,158 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef FLATTEN_MESH_OUTPUT_FILES_H
+#define FLATTEN_MESH_OUTPUT_FILES_H
+
+#include "messages.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <random>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace flattening {
+
+// Files that appear together, whole, or not at all: each is written under another name
+// beside its place, and renamed when all are there. (What is no regular file,
+// such as a device, is written in place.)
+class Output_files
+{
+public:
+  Output_files() = default;
+  Output_files(const Output_files&) = delete;
+  Output_files& operator=(const Output_files&) = delete;
+
+  ~Output_files()
+  {
+    for(const Entry& e : m_entries)
+      if(! e.temporary.empty())
+        remove(e.temporary);
+  }
+
+  // Announces a file, and makes sure that it can be written. Nothing is left of the trial.
+  void announce(const std::string& path)
+  {
+    Entry entry{path, target(path), ""};
+    for(const Entry& e : m_entries)
+      if(e.target == entry.target)
+        throw Usage_error(text("two outputs have the same name ", path));
+    std::error_code ignored;
+    if(std::filesystem::is_directory(entry.target, ignored))
+      fail("cannot write ", path, ": it is a directory");
+    if(! exists(entry.target) || is_regular(entry.target))
+      entry.temporary = temporary_name(entry.target);
+    try_to_open(entry);
+    m_entries.push_back(entry);
+  }
+
+  bool is_announced(const std::string& path) const { return find(path) != nullptr; }
+
+  // `write(out)` returns whether it succeeded.
+  template <typename Write>
+  void write(const std::string& path, Write write)
+  {
+    const Entry& entry = *find(path);
+    errno = 0;
+    std::ofstream out(entry.temporary.empty() ? entry.target : entry.temporary, std::ios::binary);
+    const bool is_written = out.good() && write(out) && out.flush().good();
+    out.close();
+    if(! is_written || out.fail())
+      fail("cannot write ", path, reason());
+  }
+
+  // Puts all files in their places.
+  void commit()
+  {
+    for(std::size_t i = 0; i < m_entries.size(); ++i)
+    {
+      Entry& entry = m_entries[i];
+      if(entry.temporary.empty())
+        continue;
+      std::error_code error;
+      std::filesystem::rename(entry.temporary, entry.target, error);
+      if(error)
+      {
+        for(std::size_t j = 0; j < i; ++j)
+          if(is_regular(m_entries[j].target))
+            remove(m_entries[j].target);
+        fail("cannot write ", entry.path, ": ", error.message());
+      }
+      entry.temporary.clear();
+    }
+  }
+
+private:
+  struct Entry { std::string path, target, temporary; };
+
+  static std::string reason() { return errno ? text(": ", std::strerror(errno)) : std::string(); }
+
+  static bool exists(const std::string& path)
+  {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+  }
+
+  static bool is_regular(const std::string& path)
+  {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+  }
+
+  static void remove(const std::string& path)
+  {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+
+  // the file behind symbolic links
+  static std::string target(const std::string& path)
+  {
+    if(exists(path) && ! is_regular(path))
+      return path;
+    std::error_code error;
+    const std::filesystem::path p = std::filesystem::weakly_canonical(path, error);
+    return error ? path : p.string();
+  }
+
+  static std::string temporary_name(const std::string& path)
+  {
+    std::random_device random;
+    std::string name;
+    do
+      name = text(path, ".part", random());
+    while(exists(name));
+    return name;
+  }
+
+  static void try_to_open(const Entry& entry)
+  {
+    if(entry.temporary.empty())
+      return; // opening a pipe, for example, would have consequences
+    errno = 0;
+    if(exists(entry.target) && ! std::ofstream(entry.target, std::ios::app).good())
+      fail("cannot write ", entry.path, reason());
+    if(! std::ofstream(entry.temporary).good())
+      fail("cannot write ", entry.path, reason());
+    remove(entry.temporary);
+  }
+
+  const Entry* find(const std::string& path) const
+  {
+    for(const Entry& e : m_entries)
+      if(e.path == path)
+        return &e;
+    return nullptr;
+  }
+
+  std::vector<Entry> m_entries;
+};
+
+} // namespace flattening
+
+#endif // FLATTEN_MESH_OUTPUT_FILES_H

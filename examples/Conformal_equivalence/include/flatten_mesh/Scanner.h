@@ -1,0 +1,176 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef FLATTEN_MESH_SCANNER_H
+#define FLATTEN_MESH_SCANNER_H
+
+#include "messages.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace flattening {
+
+// The whole content of a file.
+inline std::string read_file(const std::string& name)
+{
+  std::error_code ignored;
+  if(std::filesystem::is_directory(name, ignored))
+    fail(name, ": is a directory");
+  std::ifstream in(name, std::ios::binary);
+  if(! in)
+    fail(name, ": cannot be opened: ", std::strerror(errno));
+  std::string content;
+  const std::uintmax_t size = std::filesystem::file_size(name, ignored);
+  if(! ignored && size < std::uintmax_t(1) << 40)
+    content.reserve(static_cast<std::size_t>(size) + 1);
+  char block[1 << 16];
+  while(in.read(block, sizeof block), in.gcount() > 0)
+    content.append(block, static_cast<std::size_t>(in.gcount()));
+  if(in.bad())
+    fail(name, ": cannot be read");
+  return content;
+}
+
+// Reads words and numbers from a text, and knows the line it is in. Errors are
+// reported as "FILE: line N: ...".
+class Scanner
+{
+public:
+  Scanner(std::string_view text, std::string file, char comment)
+    : m_text(text), m_file(std::move(file)), m_comment(comment)
+  {}
+
+  const std::string& file() const { return m_file; }
+  std::size_t line() const { return m_line; }
+  std::size_t position() const { return m_at; }
+  std::size_t size() const { return m_text.size(); }
+
+  bool at_end()
+  {
+    skip_space(true);
+    return m_at == m_text.size();
+  }
+
+  bool at_end_of_line()
+  {
+    skip_space(false);
+    return m_at == m_text.size() || m_text[m_at] == '\n';
+  }
+
+  // The next word, on whatever line; empty at the end of the text.
+  std::string_view word()
+  {
+    skip_space(true);
+    const std::size_t begin = m_at;
+    while(m_at < m_text.size() && ! is_space(m_text[m_at]) && ! (m_comment && m_text[m_at] == m_comment))
+      ++m_at;
+    return m_text.substr(begin, m_at - begin);
+  }
+
+  void skip_line()
+  {
+    while(m_at < m_text.size() && m_text[m_at] != '\n')
+      ++m_at;
+  }
+
+  // The next number; in the `..._in_line` forms it must be in this line.
+  double number() { return value<double>("a number", word()); }
+  double number_in_line() { return value<double>("a number", word_in_line()); }
+  std::int64_t integer() { return value<std::int64_t>("an integer", word()); }
+  std::int64_t integer_in_line() { return value<std::int64_t>("an integer", word_in_line()); }
+
+  template <typename... Parts>
+  [[noreturn]] void error(const Parts&... parts) const
+  {
+    fail(m_file, ": line ", m_line, ": ", parts...);
+  }
+
+  // Whole words only. Numbers beyond the range of double become infinite or zero.
+  static bool parse(std::string_view w, double& x)
+  {
+    if(! w.empty() && w[0] == '+')
+      w.remove_prefix(1);
+    const std::from_chars_result r = std::from_chars(w.data(), w.data() + w.size(), x);
+    if(r.ec == std::errc::result_out_of_range)
+      x = std::strtod(std::string(w).c_str(), nullptr);
+    return r.ec != std::errc::invalid_argument && r.ptr == w.data() + w.size();
+  }
+
+  static bool parse(std::string_view w, std::int64_t& n)
+  {
+    if(! w.empty() && w[0] == '+')
+      w.remove_prefix(1);
+    const std::from_chars_result r = std::from_chars(w.data(), w.data() + w.size(), n);
+    return r.ec == std::errc() && r.ptr == w.data() + w.size();
+  }
+
+private:
+  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
+
+  std::string_view word_in_line() { return at_end_of_line() ? std::string_view() : word(); }
+
+  template <typename Number>
+  Number value(const char* kind, std::string_view w)
+  {
+    Number x = 0;
+    if(! parse(w, x))
+    {
+      if(w.empty())
+        error("expected ", kind, ", found the end of the ", m_at == m_text.size() ? "file" : "line");
+      error("expected ", kind, ", found '", printable(w), "'");
+    }
+    return x;
+  }
+
+public:
+  // A word of a file, fit for a message.
+  static std::string printable(std::string_view w)
+  {
+    std::string result(w.substr(0, 30));
+    for(char& c : result)
+      if(static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e)
+        c = '?';
+    return result;
+  }
+
+private:
+  void skip_space(bool across_lines)
+  {
+    for(; m_at < m_text.size(); ++m_at)
+    {
+      const char c = m_text[m_at];
+      if(c == '\n')
+      {
+        if(! across_lines)
+          return;
+        ++m_line;
+      }
+      else if(m_comment && c == m_comment)
+      {
+        skip_line();
+        --m_at; // look at the end of the line next
+      }
+      else if(! is_space(c))
+        return;
+    }
+  }
+
+  std::string_view m_text;
+  std::string m_file;
+  char m_comment;
+  std::size_t m_at = 0, m_line = 1;
+};
+
+} // namespace flattening
+
+#endif // FLATTEN_MESH_SCANNER_H

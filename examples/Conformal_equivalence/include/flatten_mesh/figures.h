@@ -1,0 +1,180 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef FLATTEN_MESH_FIGURES_H
+#define FLATTEN_MESH_FIGURES_H
+
+#include "mesh.h"
+#include "options.h"
+#include "solve.h"
+
+#include <CGAL/Conformal_equivalence/conformal_distortion.h>
+#include <CGAL/Conformal_equivalence/verify_layout.h>
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+#  include <nlohmann/json.hpp>
+#endif
+
+#include <chrono>
+#include <cstddef>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#if defined(__unix__) || defined(__APPLE__)
+#  include <sys/resource.h>
+#endif
+
+namespace flattening {
+
+class Stopwatch
+{
+public:
+  double seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+};
+
+// The largest amount of memory that the program has had, 0 if unknown.
+inline std::size_t peak_memory_bytes()
+{
+#if defined(__APPLE__)
+  rusage usage;
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t>(usage.ru_maxrss) : 0;
+#elif defined(__unix__)
+  rusage usage;
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? std::size_t(1024) * static_cast<std::size_t>(usage.ru_maxrss) : 0;
+#else
+  return 0;
+#endif
+}
+
+// Everything that is known at the end.
+struct Figures
+{
+  Report report;
+  CE::Layout_verdict<Mesh> verdict;
+  CE::Conformal_distortion<Mesh> distortion;
+  std::size_t number_of_isolated_vertices = 0;
+  double u_min = 0, u_max = 0;
+  double reading_seconds = 0, verifying_seconds = 0, writing_seconds = 0;
+};
+
+inline void find_range_of_u(const Mesh& mesh, const Result& result, Figures& figures)
+{
+  figures.u_min = std::numeric_limits<double>::infinity();
+  figures.u_max = -figures.u_min;
+  for(Vertex v : mesh.vertices())
+    if(mesh.is_isolated(v))
+      ++figures.number_of_isolated_vertices;
+    else
+    {
+      figures.u_min = (std::min)(figures.u_min, result.u[v]);
+      figures.u_max = (std::max)(figures.u_max, result.u[v]);
+    }
+}
+
+inline void judge(const Mesh& mesh, const Result& result, Figures& figures)
+{
+  const Stopwatch watch;
+  figures.verdict = CE::verify_layout(mesh, result.uv);
+  figures.distortion = CE::compute_conformal_distortion(mesh, result.uv);
+  find_range_of_u(mesh, result, figures);
+  figures.verifying_seconds = watch.seconds();
+}
+
+inline const char* injective_text(const Figures& figures)
+{
+  switch(figures.verdict.injectivity)
+  {
+    case CE::Injectivity::YES: return "yes";
+    case CE::Injectivity::NO:  return "no";
+    default:                   return "undecided";
+  }
+}
+
+inline std::string status_text(const Figures& figures)
+{
+  return figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? "CONVERGED_TO_ROUNDING" : "OK";
+}
+
+// Names and values, for the terminal and the page.
+inline std::vector<std::pair<std::string, std::string> > summary(const Mesh& mesh, const Figures& figures)
+{
+  const CE::Statistics& s = figures.report.statistics;
+  std::vector<std::pair<std::string, std::string> > lines;
+  lines.emplace_back("mesh", text(mesh.number_of_vertices(), " vertices, ", mesh.number_of_faces(), " triangles"));
+  if(figures.number_of_isolated_vertices != 0)
+    lines.emplace_back("isolated vertices", text(figures.number_of_isolated_vertices, ", carried through"));
+  lines.emplace_back("solver", text(s.number_of_iterations, " Newton steps, residual ", s.residual, " radians",
+    figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? " (the limit of rounding)" : ""));
+  lines.emplace_back("log scale factor u", text("from ", figures.u_min, " to ", figures.u_max));
+  lines.emplace_back("quasi-conformal factor", text("mean ", figures.distortion.mean_quasi_conformal_factor,
+                                                     ", max ", figures.distortion.maximum_quasi_conformal_factor));
+  lines.emplace_back("flipped triangles", text(figures.verdict.number_of_flipped_triangles, " (exact)"));
+  if(figures.verdict.number_of_degenerate_triangles != 0)
+    lines.emplace_back("degenerate triangles", text(figures.verdict.number_of_degenerate_triangles, " (exact)"));
+  lines.emplace_back("injective", injective_text(figures));
+  lines.emplace_back("largest length error", text(figures.report.layout_length_error));
+  lines.emplace_back("seconds", text("read ", figures.reading_seconds, ", import ", s.seconds.import, ", solve ", s.seconds.solve,
+                                     ", lay out ", s.seconds.layout, ", verify ", figures.verifying_seconds));
+  return lines;
+}
+
+inline void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, const Figures& figures)
+{
+  out << options.input << '\n';
+  for(const auto& line : summary(mesh, figures))
+    out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
+  for(const std::string& file : {options.obj, options.svg, options.html, options.report})
+    if(! file.empty())
+      out << "  wrote " << file << '\n';
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+inline std::string json_report(const Options& options, const Mesh& mesh, const Figures& figures)
+{
+  const CE::Statistics& s = figures.report.statistics;
+  const CE::Surface_topology& t = figures.report.topology;
+  nlohmann::ordered_json json;
+  json["status"] = status_text(figures);
+  json["vertices"] = mesh.number_of_vertices();
+  json["faces"] = mesh.number_of_faces();
+  json["isolated_vertices"] = figures.number_of_isolated_vertices;
+  json["genus"] = t.genus;
+  json["borders"] = t.number_of_borders;
+  json["components"] = t.number_of_components;
+  json["retriangulation"] = { {"mode", "never"}, {"class", "fixed triangulation"}, {"flips", s.number_of_flips} };
+  json["newton_steps"] = s.number_of_iterations;
+  json["pcg_iterations"] = s.number_of_linear_iterations;
+  json["factorizations"] = s.number_of_factorizations;
+  json["residual"] = s.residual;
+  json["residual_floor"] = s.residual_floor;
+  json["tolerance"] = options.tolerance;
+  json["u_min"] = figures.u_min;
+  json["u_max"] = figures.u_max;
+  json["cones"] = nlohmann::ordered_json::array();
+  json["quasi_conformal"] = { {"mean", figures.distortion.mean_quasi_conformal_factor},
+                              {"max", figures.distortion.maximum_quasi_conformal_factor} };
+  json["flipped_triangles"] = figures.verdict.number_of_flipped_triangles;
+  json["degenerate_triangles"] = figures.verdict.number_of_degenerate_triangles;
+  json["injective"] = injective_text(figures);
+  json["layout_length_error"] = figures.report.layout_length_error;
+  json["seconds"] = { {"import", figures.reading_seconds + s.seconds.import}, {"solve", s.seconds.solve},
+                      {"cut", s.seconds.cut}, {"layout", s.seconds.layout},
+                      {"verify", figures.verifying_seconds}, {"write", figures.writing_seconds} };
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  json["seed"] = nullptr;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+#endif
+
+} // namespace flattening
+
+#endif // FLATTEN_MESH_FIGURES_H

@@ -1,0 +1,242 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The program flatten_mesh as a function, to be run also within another program.
+
+#ifndef FLATTEN_MESH_FLATTEN_MESH_H
+#define FLATTEN_MESH_FLATTEN_MESH_H
+
+#include "conditions.h"
+#include "figures.h"
+#include "mesh.h"
+#include "messages.h"
+#include "options.h"
+#include "Output_files.h"
+#include "solve.h"
+
+#include <CGAL/Conformal_equivalence/IO/write_HTML.h>
+#include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
+#include <CGAL/Conformal_equivalence/IO/write_SVG.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <ostream>
+#include <string>
+
+namespace flattening {
+
+// The files beside an OBJ file.
+struct Material_files
+{
+  std::string material, texture;
+
+  explicit Material_files(const std::string& obj)
+  {
+    const std::filesystem::path path(obj);
+    std::error_code ignored;
+    if(path.extension().empty() || (std::filesystem::exists(path, ignored) && ! std::filesystem::is_regular_file(path, ignored)))
+      return; // a device, for example
+    material = std::filesystem::path(path).replace_extension(".mtl").string();
+    texture = std::filesystem::path(path).replace_extension(".checker.png").string();
+  }
+};
+
+inline std::string name_without_folder(const std::string& file)
+{
+  return std::filesystem::path(file).filename().string();
+}
+
+inline void announce_outputs(const Options& options, const Material_files& beside, Output_files& files)
+{
+  for(const std::string& file : {options.obj, options.svg, options.html, options.report})
+    for(const std::string& input : {options.input, options.angle_file, options.scale_file})
+    {
+      std::error_code ignored;
+      if(! file.empty() && ! input.empty() && std::filesystem::equivalent(file, input, ignored))
+        throw Usage_error("the output " + file + " would overwrite the input");
+    }
+  for(const std::string& file : {options.obj, options.obj.empty() ? "" : beside.material,
+                                 options.obj.empty() ? "" : beside.texture, options.svg, options.html, options.report})
+    if(! file.empty())
+      files.announce(file);
+}
+
+// Says why there is no result.
+[[noreturn]] inline void fail_to_flatten(const Options& options, const Report& report)
+{
+  const bool may_be_the_triangulation =
+    report.status == CE::Status::DEGENERATE_METRIC || report.status == CE::Status::ITERATIONS_EXHAUSTED;
+  fail(options.input, ": ", CE::message(report),
+       may_be_the_triangulation ? " (the triangulation is kept: --retriangulate never)" : "");
+}
+
+inline std::string list_of_faces(const std::vector<Face>& faces)
+{
+  std::string list;
+  for(std::size_t i = 0; i < faces.size() && i < 10; ++i)
+    list += text(i == 0 ? " " : ", ", faces[i].idx());
+  return faces.size() > 10 ? list + ", ..." : list;
+}
+
+inline void require_verdict(const Options& options, const Figures& figures)
+{
+  const CE::Layout_verdict<Mesh>& verdict = figures.verdict;
+  if(verdict.number_of_flipped_triangles != 0)
+    fail(options.input, ": the layout flips ", verdict.number_of_flipped_triangles, " triangles: faces",
+         list_of_faces(verdict.flipped_faces));
+  if(options.require_injective && verdict.injectivity != CE::Injectivity::YES)
+    fail(options.input, ": the layout is ", verdict.injectivity == CE::Injectivity::NO ? "not" : "not known to be", " injective",
+         verdict.number_of_degenerate_triangles != 0 ? text(": degenerate faces", list_of_faces(verdict.degenerate_faces))
+                                                     : text(": its border overlaps in ", verdict.crossing_borders.size(), " places"));
+}
+
+// What gives a triangle its colour in the drawing.
+inline Face_map<double> face_colors(const Options& options, Mesh& mesh, const Result& result)
+{
+  Face_map<double> value = mesh.add_property_map<Face, double>("f:color", 0.).first;
+  for(Face f : mesh.faces())
+  {
+    const Halfedge h = mesh.halfedge(f);
+    value[f] = options.color_by_quasi_conformal_factor
+      ? CE::quasi_conformal_factor(mesh, result.uv, f)
+      : (result.u[mesh.target(h)] + result.u[mesh.source(h)] + result.u[mesh.target(mesh.next(h))]) / 3;
+  }
+  return value;
+}
+
+inline CE::IO::HTML_options drawing_options(const Options& options, const Mesh& mesh, const Figures& figures)
+{
+  CE::IO::HTML_options drawing;
+  drawing.title = name_without_folder(options.input);
+  drawing.figures = summary(mesh, figures);
+  drawing.svg.legend = options.color_by_quasi_conformal_factor ? "quasi-conformal factor" : "u";
+  return drawing;
+}
+
+// The checkerboard of the material: about 20 squares along the layout.
+inline double texture_repetitions(const Mesh& mesh, const Result& result)
+{
+  CE::internal::Finite_range x, y;
+  for(Halfedge h : mesh.halfedges())
+  {
+    x.insert(result.uv[h].x());
+    y.insert(result.uv[h].y());
+  }
+  const double longest = (std::max)(x.upper - x.lower, y.upper - y.lower);
+  return longest > 0 && std::isfinite(longest) ? 0.5 / CE::internal::round_number_below(longest / 14) : 1;
+}
+
+inline void write_obj(const Options& options, const Mesh& mesh, const Result& result,
+                      const Material_files& beside, Output_files& files)
+{
+  CE::IO::OBJ_material material;
+  material.library = name_without_folder(beside.material);
+  files.write(options.obj, [&](std::ostream& out)
+  {
+    return options.projective
+      ? CE::IO::write_OBJ(out, mesh, result.uv, CGAL::parameters::projective_weight_map(result.weight), material)
+      : CE::IO::write_OBJ(out, mesh, result.uv, CGAL::parameters::default_values(), material);
+  });
+  if(beside.material.empty())
+    return;
+  files.write(beside.material, [&](std::ostream& out)
+  {
+    return CE::IO::write_MTL(out, material.name, name_without_folder(beside.texture), texture_repetitions(mesh, result));
+  });
+  files.write(beside.texture, [](std::ostream& out) { return CE::IO::write_checkerboard_PNG(out); });
+}
+
+inline void write_outputs(const Options& options, Mesh& mesh, const Result& result, const Material_files& beside,
+                          Figures& figures, Output_files& files)
+{
+  const Stopwatch watch;
+  if(! options.obj.empty())
+    write_obj(options, mesh, result, beside, files);
+  if(! options.svg.empty() || ! options.html.empty())
+  {
+    const Face_map<double> colors = face_colors(options, mesh, result);
+    const CE::IO::HTML_options drawing = drawing_options(options, mesh, figures);
+    if(! options.svg.empty())
+      files.write(options.svg, [&](std::ostream& out) { return CE::IO::write_SVG(out, mesh, result.uv, colors, drawing.svg); });
+    if(! options.html.empty())
+      files.write(options.html, [&](std::ostream& out)
+        { return CE::IO::write_HTML(out, mesh, result.uv, colors, drawing, CGAL::parameters::projective_weight_map(result.weight)); });
+  }
+  figures.writing_seconds = watch.seconds();
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  if(! options.report.empty())
+    files.write(options.report, [&](std::ostream& out) { return (out << json_report(options, mesh, figures)).good(); });
+#endif
+  files.commit();
+}
+
+// Reads, solves, judges, writes; throws a `Failure` that says what went wrong.
+inline void run(const Options& options, std::ostream& out, std::ostream& err)
+{
+  const Material_files beside(options.obj);
+  Output_files files;
+  announce_outputs(options, beside, files);
+
+  const Stopwatch watch;
+  Mesh mesh;
+  read_mesh(options.input, mesh);
+  require_disk(mesh, options.input);
+  Figures figures;
+  figures.reading_seconds = watch.seconds();
+
+  Conditions conditions(mesh);
+  set_conditions(options, mesh, conditions);
+  Result result(mesh);
+  {
+    Progress progress(err, ! options.quiet && is_terminal(err));
+    figures.report = flatten(options, mesh, conditions, result, progress);
+  }
+  if(! figures.report)
+    fail_to_flatten(options, figures.report);
+  judge(mesh, result, figures);
+  require_verdict(options, figures);
+  write_outputs(options, mesh, result, beside, figures, files);
+  if(! options.quiet)
+    print_summary(out, options, mesh, figures);
+}
+
+} // namespace flattening
+
+// The whole program: returns its exit status, 0 (done), 1 (failed, nothing is written) or 2 (wrong usage).
+inline int flatten_mesh(int argc, const char* const argv[], std::ostream& out, std::ostream& err)
+{
+  using namespace flattening;
+  try
+  {
+    const Options options = parse_options(argc, argv);
+    if(options.is_help)
+      out << help_text();
+    else if(options.is_version)
+      out << "flatten_mesh " << CGAL_CONFORMAL_EQUIVALENCE_VERSION << " (CGAL " << CGAL_VERSION_STR << ")\n";
+    else
+    {
+      check_solver(options.solver);
+      run(options, out, err);
+    }
+    return 0;
+  }
+  catch(const Usage_error& e)
+  {
+    err << "flatten_mesh: " << e.what() << " (see flatten_mesh --help)" << std::endl;
+    return 2;
+  }
+  catch(const std::bad_alloc&)
+  {
+    err << "flatten_mesh: out of memory" << std::endl;
+  }
+  catch(const std::exception& e)
+  {
+    err << "flatten_mesh: " << e.what() << std::endl;
+  }
+  return 1;
+}
+
+#endif // FLATTEN_MESH_FLATTEN_MESH_H

@@ -1,0 +1,33 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef FLATTEN_MESH_MESSAGES_H
+#define FLATTEN_MESH_MESSAGES_H
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace flattening {
+
+// The command line is wrong: exit status 2.
+struct Usage_error : std::runtime_error { using std::runtime_error::runtime_error; };
+
+// The input or the computation is: exit status 1.
+struct Failure : std::runtime_error { using std::runtime_error::runtime_error; };
+
+template <typename... Parts>
+std::string text(const Parts&... parts)
+{
+  std::ostringstream out;
+  out.precision(7);
+  (out << ... << parts);
+  return out.str();
+}
+
+template <typename... Parts>
+[[noreturn]] void fail(const Parts&... parts) { throw Failure(text(parts...)); }
+
+} // namespace flattening
+
+#endif // FLATTEN_MESH_MESSAGES_H

@@ -1,0 +1,268 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef FLATTEN_MESH_OPTIONS_H
+#define FLATTEN_MESH_OPTIONS_H
+
+#include "messages.h"
+#include "Scanner.h"
+
+#include <CGAL/Conformal_equivalence/version.h>
+
+#include <boost/program_options.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace flattening {
+
+// The command line, as values.
+struct Options
+{
+  std::string input, obj, svg, html, report;
+  bool is_rectangle = false;
+  std::optional<std::array<std::size_t, 4> > corners; // of the rectangle; chosen if absent
+  std::string angle_file, scale_file;                 // of the border
+  bool unit_square = false;
+  bool color_by_quasi_conformal_factor = false;
+  bool projective = false, require_injective = false, quiet = false;
+  double tolerance = 1e-12;
+  unsigned int maximum_number_of_iterations = 100;
+  std::string solver;
+  bool is_help = false, is_version = false;
+};
+
+namespace po = boost::program_options;
+
+inline po::options_description visible_options()
+{
+  po::options_description options("Options", 110);
+  options.add_options()
+    ("output,o", po::value<std::string>(), "write the mesh with the layout as texture coordinates to this OBJ file, "
+                                           "and a material (.mtl, .checker.png) beside it")
+    ("svg", po::value<std::string>(), "draw the layout")
+    ("html", po::value<std::string>(), "write a page that shows the textured mesh and the layout")
+    ("report", po::value<std::string>(), "write the figures as JSON")
+    ("boundary", po::value<std::vector<std::string> >()->composing(),
+       "natural: the border keeps its lengths (default)\n"
+       "rectangle[=i,j,k,l]: with corners at these vertices, or chosen\n"
+       "angles=FILE: angle sums in degrees, lines 'vertex-index angle'\n"
+       "scale=FILE: u, lines 'vertex-index u'\n"
+       "angles and scale may both be given; border vertices not named have u = 0")
+    ("target", po::value<std::string>()->default_value("plane"), "plane (sphere, disk: not in this version)")
+    ("frame", po::value<std::string>()->default_value("canonical"), "canonical | unit-square")
+    ("cones", po::value<std::string>(), "FILE | auto[=N] (not in this version)")
+    ("max-scale", po::value<double>(), "bound on u for automatic cones (not in this version)")
+    ("quantize", po::value<std::string>()->implicit_value("90"), "cones at multiples of this angle in degrees (not in this version)")
+    ("seamless", po::bool_switch(), "a seamless layout (not in this version)")
+    ("tiles", po::value<std::size_t>(), "number of tiles of a seamless layout (not in this version)")
+    ("retriangulate", po::value<std::string>()->default_value("never"), "never (when-needed, always: not in this version)")
+    ("local-repair", po::bool_switch(), "split triangles that break (not in this version)")
+    ("projective", po::bool_switch(), "write homogeneous texture coordinates u*w, v*w, w")
+    ("require-injective", po::bool_switch(), "fail if the layout overlaps itself")
+    ("color-by", po::value<std::string>()->default_value("u"), "u | qc: colours of the drawing")
+    ("tolerance", po::value<std::string>()->default_value("1e-12"), "largest error of an angle sum, in radians")
+    ("max-iterations", po::value<long long>()->default_value(100), "bound on the number of Newton steps")
+    ("precision", po::value<std::string>()->default_value("double"), "double (BITS: not in this version)")
+    ("solver", po::value<std::string>(), "the linear solver: cholmod or simplicial, as far as compiled in")
+    ("threads", po::value<long long>()->default_value(1), "number of threads")
+    ("quiet", po::bool_switch(), "no summary and no progress")
+    ("help,h", po::bool_switch(), "show this text")
+    ("version", po::bool_switch(), "show the version");
+  return options;
+}
+
+inline std::string help_text()
+{
+  std::ostringstream out;
+  out << "Usage: flatten_mesh INPUT [-o OUT.obj] [--svg OUT.svg] [--html OUT.html] [--report OUT.json] [options]\n"
+         "Flattens a triangle mesh that is a topological disk (OFF, OBJ, PLY or STL) by an exact discrete\n"
+         "conformal map: the layout has the length cross ratios of the mesh. Vertices are counted from 0.\n"
+         "Exit status: 0 done, no triangle flipped; 1 failed, nothing is written; 2 wrong usage.\n\n"
+      << visible_options();
+  return out.str();
+}
+
+// What the design has room for and this version does not have.
+inline void refuse_what_is_not_available(const po::variables_map& values)
+{
+  const auto refuse = [](const std::string& option)
+    { throw Usage_error(option + " is not available in this version"); };
+  const auto check = [&](const char* name, const std::vector<std::string>& available, const std::vector<std::string>& known)
+  {
+    const std::string value = values[name].as<std::string>();
+    for(const std::string& s : available)
+      if(value == s)
+        return;
+    for(const std::string& s : known)
+      if(value == s)
+        refuse(text("--", name, ' ', value));
+    throw Usage_error(text("unknown value '", value, "' of --", name));
+  };
+  check("target", {"plane"}, {"sphere", "disk"});
+  check("frame", {"canonical", "unit-square"}, {});
+  check("retriangulate", {"never"}, {"when-needed", "always"});
+  check("color-by", {"u", "qc"}, {});
+
+  std::int64_t bits = 0;
+  const std::string precision = values["precision"].as<std::string>();
+  if(precision != "double" && (! Scanner::parse(precision, bits) || bits < 2))
+    throw Usage_error(text("--precision takes 'double' or a number of bits, not '", precision, "'"));
+  if(precision != "double")
+    refuse(text("--precision ", precision));
+
+  for(const char* name : {"cones", "max-scale", "quantize", "tiles"})
+    if(values.count(name))
+      refuse(text("--", name));
+  for(const char* name : {"seamless", "local-repair"})
+    if(values[name].as<bool>())
+      refuse(text("--", name));
+}
+
+inline std::array<std::size_t, 4> parse_corners(const std::string& list)
+{
+  std::array<std::size_t, 4> corners;
+  std::vector<std::string> words(1);
+  for(char c : list)
+    if(c == ',')
+      words.emplace_back();
+    else
+      words.back() += c;
+  bool is_good = words.size() == 4;
+  for(std::size_t k = 0; is_good && k < 4; ++k)
+  {
+    std::int64_t i = 0;
+    is_good = Scanner::parse(words[k], i) && i >= 0;
+    corners[k] = static_cast<std::size_t>(i);
+    for(std::size_t j = 0; is_good && j < k; ++j)
+      is_good = corners[j] != corners[k];
+  }
+  if(! is_good)
+    throw Usage_error(text("--boundary rectangle= takes the indices of four different vertices, not '", list, "'"));
+  return corners;
+}
+
+inline void parse_boundary(const std::vector<std::string>& values, Options& options)
+{
+  bool is_natural = false;
+  for(const std::string& value : values)
+  {
+    const std::size_t equals = value.find('=');
+    const std::string kind = value.substr(0, equals);
+    const bool has_argument = equals != std::string::npos;
+    const std::string argument = has_argument ? value.substr(equals + 1) : "";
+    std::string* file = kind == "angles" ? &options.angle_file : kind == "scale" ? &options.scale_file : nullptr;
+    if(kind == "disk")
+      throw Usage_error("--boundary disk is not available in this version");
+    else if(kind == "natural" && ! has_argument)
+      is_natural = true;
+    else if(kind == "rectangle")
+    {
+      options.is_rectangle = true;
+      if(has_argument)
+        options.corners = parse_corners(argument);
+    }
+    else if(file == nullptr)
+      throw Usage_error(text("unknown value '", value, "' of --boundary"));
+    else if(argument.empty())
+      throw Usage_error(text("--boundary ", kind, " needs a file: ", kind, "=FILE"));
+    else if(! file->empty())
+      throw Usage_error(text("--boundary ", kind, " is given twice"));
+    else
+      *file = argument;
+  }
+  const bool is_from_files = ! options.angle_file.empty() || ! options.scale_file.empty();
+  if(is_natural + options.is_rectangle + is_from_files > 1 || (! is_from_files && values.size() > 1))
+    throw Usage_error("these values of --boundary exclude each other; only angles=FILE and scale=FILE go together");
+}
+
+inline void parse_numbers(const po::variables_map& values, Options& options)
+{
+  const std::string tolerance = values["tolerance"].as<std::string>();
+  if(! Scanner::parse(tolerance, options.tolerance) || ! std::isfinite(options.tolerance) || ! (options.tolerance > 0))
+    throw Usage_error(text("--tolerance takes a positive number, not '", tolerance, "'"));
+  const long long iterations = values["max-iterations"].as<long long>();
+  if(iterations < 0 || iterations > 1000000)
+    throw Usage_error("--max-iterations takes a number from 0 to 1000000");
+  options.maximum_number_of_iterations = static_cast<unsigned int>(iterations);
+  if(values["threads"].as<long long>() < 1)
+    throw Usage_error("--threads takes a number from 1");
+}
+
+inline po::variables_map parse_command_line(int argc, const char* const argv[])
+{
+  po::options_description all;
+  all.add(visible_options()).add_options()("input", po::value<std::string>());
+  po::positional_options_description positions;
+  positions.add("input", 1);
+  po::variables_map values;
+  try
+  {
+    namespace style = po::command_line_style;
+    po::store(po::command_line_parser(argc, argv).options(all).positional(positions)
+                .style(style::default_style & ~style::allow_guessing).run(), values);
+    po::notify(values);
+  }
+  catch(const po::too_many_positional_options_error&)
+  {
+    throw Usage_error("only one INPUT can be given");
+  }
+  catch(const po::error& e)
+  {
+    throw Usage_error(e.what());
+  }
+  return values;
+}
+
+// The file of an output, empty if it is not wanted.
+inline std::string output_file(const po::variables_map& values, const char* option)
+{
+  if(! values.count(option))
+    return "";
+  const std::string file = values[option].as<std::string>();
+  if(file.empty())
+    throw Usage_error(text("--", option, " needs the name of a file"));
+  return file;
+}
+
+inline Options parse_options(int argc, const char* const argv[])
+{
+  Options options;
+  const po::variables_map values = parse_command_line(argc, argv);
+  options.is_help = values["help"].as<bool>();
+  options.is_version = values["version"].as<bool>();
+  if(options.is_help || options.is_version)
+    return options;
+  refuse_what_is_not_available(values);
+  if(! values.count("input"))
+    throw Usage_error("no INPUT is given");
+  options.input = values["input"].as<std::string>();
+  options.obj = output_file(values, "output");
+  options.svg = output_file(values, "svg");
+  options.html = output_file(values, "html");
+  options.report = output_file(values, "report");
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  if(! options.report.empty())
+    throw Usage_error("--report is not available: the program was built without nlohmann-json");
+#endif
+  if(values.count("boundary"))
+    parse_boundary(values["boundary"].as<std::vector<std::string> >(), options);
+  parse_numbers(values, options);
+  options.unit_square = values["frame"].as<std::string>() == "unit-square";
+  options.color_by_quasi_conformal_factor = values["color-by"].as<std::string>() == "qc";
+  options.projective = values["projective"].as<bool>();
+  options.require_injective = values["require-injective"].as<bool>();
+  options.quiet = values["quiet"].as<bool>();
+  if(values.count("solver"))
+    options.solver = values["solver"].as<std::string>();
+  return options;
+}
+
+} // namespace flattening
+
+#endif // FLATTEN_MESH_OPTIONS_H

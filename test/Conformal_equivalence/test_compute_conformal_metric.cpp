@@ -1,0 +1,696 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The solver: known solutions, the conditions it takes and refuses, its figures.
+
+#define BOOST_TEST_MODULE test_compute_conformal_metric
+#include "include/boost_test.h"
+#include "include/test_meshes.h"
+
+#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/discrete_metric.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/property_map/property_map.hpp>
+
+#include <functional>
+#include <limits>
+
+namespace CE = CGAL::Conformal_equivalence;
+namespace CEi = CE::internal;
+namespace mp = boost::multiprecision;
+namespace params = CGAL::parameters;
+
+typedef CE::Intrinsic_triangulation<> Triangulation;
+typedef CE::Conformal_conditions<> Conditions;
+typedef CE::Conformal_metric<> Metric;
+typedef CE::Exact_angle<> Angle;
+typedef mp::number<mp::cpp_bin_float_50::backend_type, mp::et_off> Real;
+using CE::Status;
+using testing::Index;
+
+namespace {
+
+const double infinity = std::numeric_limits<double>::infinity();
+const double nan = std::numeric_limits<double>::quiet_NaN();
+
+Real wide(const CEi::Double_double& x) { return Real(x.hi) + x.lo; }
+
+Triangulation wild(unsigned seed) // a rough disk
+{
+  return testing::triangulation(testing::random_height_field(8, .6, seed));
+}
+
+// The largest difference of an angle sum from its target, in 50 digits, made of lengths by
+// the cosine theorem: nothing of the package's own formulas.
+double residual(const Metric& metric, const Conditions& conditions)
+{
+  const Triangulation& t = metric.triangulation;
+  std::vector<Real> sum(t.number_of_vertices(), Real(0));
+  for(Index f = 0; f < t.number_of_faces(); ++f)
+  {
+    std::array<Real, 3> l;
+    for(Index k = 0; k < 3; ++k)
+    {
+      const Index h = 3 * f + k;
+      l[k] = wide(metric.scale_factors[t.origin(h)]) * t.halfedge_length(h) * wide(metric.scale_factors[t.target(h)]);
+    }
+    for(Index k = 0; k < 3; ++k)
+    {
+      const Real &a = l[k], &b = l[(k + 1) % 3], &c = l[(k + 2) % 3];
+      sum[t.apex(3 * f + k)] += acos(Real((b * b + c * c - a * a) / (2 * b * c)));
+    }
+  }
+  Real worst(0);
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_isolated_vertex(v) && !conditions.is_fixed(v))
+      worst = (std::max)(worst, Real(abs(Real(sum[v] - conditions.angle_sum(v).radians<Real>()))));
+  return static_cast<double>(worst);
+}
+
+double largest_difference(const std::vector<double>& u, const std::vector<double>& v)
+{
+  BOOST_REQUIRE_EQUAL(u.size(), v.size());
+  double result = 0;
+  for(std::size_t i = 0; i < u.size(); ++i)
+    result = (std::max)(result, std::abs(u[i] - v[i]));
+  return result;
+}
+
+// solved, and what the status promises is true
+void check_solution(const Metric& metric, const Conditions& conditions)
+{
+  BOOST_REQUIRE_MESSAGE(metric.status == Status::OK, CE::message(metric.status) << ' ' << metric.amount);
+  BOOST_CHECK_LE(residual(metric, conditions), 1e-12);
+  BOOST_CHECK_LE(metric.statistics.residual, 1e-12);
+  for(Index v = 0; v < conditions.size(); ++v)
+  {
+    BOOST_CHECK_SMALL(static_cast<double>(Real(2 * log(wide(metric.scale_factors[v])) - metric.log_scale_factors[v])),
+                      4e-16 * (1 + std::abs(metric.log_scale_factors[v])));
+    if(conditions.is_fixed(v) && !metric.triangulation.is_isolated_vertex(v))
+      BOOST_CHECK_CLOSE_FRACTION(metric.log_scale_factors[v], conditions.log_scale_factor(v), 1e-15);
+  }
+  // what is returned are the given lengths, and the scaled ones are equivalent
+  Triangulation scaled = metric.triangulation;
+  for(Index e = 0; e < scaled.number_of_edges(); ++e)
+    scaled.set_length(e, metric.scaled_length(scaled.edge_halfedge(e)));
+  BOOST_CHECK(CE::is_valid_metric(scaled));
+  BOOST_CHECK(CE::are_conformally_equivalent(metric.triangulation, scaled, 1e-14));
+}
+
+template <typename NamedParameters>
+Metric solved(const Triangulation& t, const Conditions& conditions, const NamedParameters& np)
+{
+  const Metric metric = CE::compute_conformal_metric(t, conditions, np);
+  check_solution(metric, conditions);
+  return metric;
+}
+
+Metric solved(const Triangulation& t, const Conditions& conditions)
+{
+  return solved(t, conditions, params::default_values());
+}
+
+std::vector<double> centered(std::vector<double> u)
+{
+  double sum = 0;
+  for(const double x : u)
+    sum += x;
+  for(double& x : u)
+    x -= sum / double(u.size());
+  return u;
+}
+
+// ---- known solutions
+
+BOOST_AUTO_TEST_CASE(cones_over_regular_polygons)
+{
+  for(const Index n : {3, 4, 7, 30})
+    for(const double height : {1e-3, .5, 20.})
+    {
+      const Triangulation t = testing::triangulation(testing::cone(n, height));
+      const Conditions conditions(t);
+      const Metric metric = solved(t, conditions);
+      BOOST_CHECK_SMALL(metric.log_scale_factors[0] + std::log1p(height * height), 1e-13); // e^{u/2} sqrt(1 + h^2) = 1
+    }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_flat_stays)
+{
+  for(const testing::Soup& soup : {testing::flat_grid(6), testing::annulus(3, 9), testing::one_triangle({{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}})})
+  {
+    const Triangulation t = testing::triangulation(soup);
+    const Metric metric = solved(t, Conditions(t));
+    BOOST_CHECK_EQUAL(metric.statistics.number_of_iterations, 0);
+    for(const double u : metric.log_scale_factors)
+      BOOST_CHECK_SMALL(u, 1e-14);
+  }
+  const Triangulation torus = testing::one_vertex_torus(3., 4., 4.5);
+  BOOST_CHECK_EQUAL(solved(torus, Conditions(torus)).log_scale_factors[0], 0);
+}
+
+BOOST_AUTO_TEST_CASE(one_triangle_takes_any_angles)
+{
+  const Triangulation t = testing::triangulation(testing::one_triangle({{0, 0, 0}}, {{3, 0, 0}}, {{1, 2, 1}}));
+  Conditions conditions(t);
+  for(Index v = 0; v < 3; ++v)
+    conditions.prescribe_angle_sum(v, Angle::pi_times(Index(v + 1), 6)); // 30, 60, 90 degrees
+  const Metric metric = solved(t, conditions);
+  const double scale = metric.scaled_length(1); // opposite to vertex 0
+  BOOST_CHECK_CLOSE_FRACTION(metric.scaled_length(2), std::sqrt(3.) * scale, 1e-13);
+  BOOST_CHECK_CLOSE_FRACTION(metric.scaled_length(0), 2 * scale, 1e-13);
+  BOOST_CHECK_SMALL(metric.log_scale_factors[0] + metric.log_scale_factors[1] + metric.log_scale_factors[2], 1e-14);
+
+  // by fixed factors: nothing is left to find
+  Conditions fixed(t);
+  for(Index v = 0; v < 3; ++v)
+    fixed.fix_log_scale_factor(v, .1 * v);
+  const Metric scaled = solved(t, fixed);
+  BOOST_CHECK_CLOSE_FRACTION(scaled.scaled_length(2), std::exp(.1) * t.length(2), 1e-15);
+}
+
+// Scale a metric, prescribe its curvature, and find the factors again.
+BOOST_AUTO_TEST_CASE(curved_and_flat_metrics_on_closed_surfaces)
+{
+  const Triangulation sphere = testing::triangulation(testing::icosahedron());
+  std::vector<double> u = testing::random_numbers(12, .3, 8);
+  Conditions conditions(sphere);
+  for(Index v = 0; v < 12; ++v)
+    conditions.prescribe_angle_sum(v, Angle::pi_times(5, 3));
+  Metric metric = solved(CE::apply_log_scale_factors(sphere, u), conditions);
+  for(double& x : u)
+    x = -x;
+  BOOST_CHECK_LE(largest_difference(metric.log_scale_factors, centered(u)), 1e-13);
+
+  // a flat torus of squares with diagonals, in no space; scaled
+  const testing::Soup soup = testing::torus(5, 6);
+  Triangulation torus = testing::triangulation(soup);
+  for(Index h = 0; h < torus.number_of_halfedges(); ++h)
+    torus.set_length(torus.edge(h), h % 6 == 2 || h % 6 == 3 ? std::sqrt(2.) : 1.);
+  BOOST_CHECK_LE(largest_difference(CE::discrete_curvatures(torus), std::vector<double>(30, 0.)), 1e-14);
+  BOOST_CHECK_LE(largest_difference(solved(torus, Conditions(torus)).log_scale_factors, std::vector<double>(30, 0.)), 1e-14);
+  u = testing::random_numbers(30, .2, 9);
+  metric = solved(CE::apply_log_scale_factors(torus, u), Conditions(torus));
+  for(double& x : u)
+    x = -x;
+  BOOST_CHECK_LE(largest_difference(metric.log_scale_factors, centered(u)), 1e-13);
+}
+
+BOOST_AUTO_TEST_CASE(fixed_factors_are_met)
+{
+  const Triangulation t = wild(1);
+  Conditions conditions(t);
+  const std::vector<double> natural = solved(t, conditions).log_scale_factors;
+  const double c = -1.7;
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(t.is_border_vertex(v))
+      conditions.fix_log_scale_factor(v, c);
+  std::vector<double> shifted = solved(t, conditions).log_scale_factors;
+  for(double& x : shifted)
+    x -= c;
+  BOOST_CHECK_LE(largest_difference(shifted, natural), 1e-13);
+  // on a flat metric, u is the constant
+  const Triangulation flat = testing::triangulation(testing::flat_grid(5));
+  Conditions constant(flat);
+  for(Index v = 0; v < flat.number_of_vertices(); ++v)
+    if(flat.is_border_vertex(v))
+      constant.fix_log_scale_factor(v, c);
+  BOOST_CHECK_LE(largest_difference(solved(flat, constant).log_scale_factors, std::vector<double>(36, c)), 1e-13);
+}
+
+// At every vertex, interior or border, either the factor or the angle sum of a known metric.
+BOOST_AUTO_TEST_CASE(any_mixture_of_conditions)
+{
+  for(const testing::Soup& soup : {testing::hill(7, .5), testing::annulus(3, 10, .4), testing::torus(6, 7), testing::icosphere(1)})
+    for(unsigned seed = 0; seed < 3; ++seed)
+    {
+      const Triangulation t = testing::triangulation(soup);
+      const std::vector<double> u = testing::random_numbers(t.number_of_vertices(), .15, seed);
+      const Triangulation target = CE::apply_log_scale_factors(t, u);
+      BOOST_REQUIRE(CE::is_valid_metric(target));
+      const std::vector<double> angle = CE::angle_sums(target);
+      testing::Random random(seed);
+      Conditions conditions(t);
+      for(Index v = 0; v < t.number_of_vertices(); ++v)
+      {
+        if(v == 0 || random.below(5) == 0)
+          conditions.fix_log_scale_factor(v, u[v]);
+        else
+          conditions.prescribe_angle_sum(v, angle[v]);
+      }
+      BOOST_CHECK_LE(largest_difference(solved(t, conditions).log_scale_factors, u), 1e-12);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(several_components_and_borders)
+{
+  const testing::Soup disk = testing::hill(5, .6), ring = testing::annulus(4, 12, .8), torus = testing::torus(7, 6);
+  const Triangulation all = testing::triangulation(testing::together({disk, ring, torus}, true));
+  const Metric metric = solved(all, Conditions(all));
+  std::vector<double> expected;
+  for(const testing::Soup& soup : {disk, ring, torus})
+  {
+    const Triangulation t = testing::triangulation(soup);
+    const std::vector<double> u = solved(t, Conditions(t)).log_scale_factors;
+    expected.push_back(0); // an isolated vertex
+    expected.insert(expected.end(), u.begin(), u.end());
+  }
+  BOOST_CHECK_LE(largest_difference(metric.log_scale_factors, expected), 1e-12);
+  for(Index h = 0; h < all.number_of_halfedges(); ++h) // both borders of the annulus are isometric
+    if(all.is_border(h))
+      BOOST_CHECK_CLOSE_FRACTION(metric.scaled_length(h), all.halfedge_length(h), 1e-15);
+}
+
+Conditions rectangle(const Triangulation& t, Index n) // on a grid of n x n squares
+{
+  Conditions conditions(t);
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(t.is_border_vertex(v))
+      conditions.prescribe_angle_sum(v, Angle::pi_times(1));
+  for(const Index v : {Index(0), n, n * (n + 1), n * (n + 1) + n})
+    conditions.prescribe_angle_sum(v, Angle::pi_times(1, 2));
+  return conditions;
+}
+
+BOOST_AUTO_TEST_CASE(rectangles)
+{
+  const Index n = 9;
+  const Triangulation t = testing::triangulation(testing::hill(n, .7));
+  const Metric metric = solved(t, rectangle(t, n));
+  double sum = 0;
+  for(const double u : metric.log_scale_factors)
+    sum += u;
+  BOOST_CHECK_SMALL(sum, 1e-12);
+  BOOST_CHECK_EQUAL(metric.statistics.angle_defect_spread, 0);
+  std::array<double, 4> side = {{0, 0, 0, 0}}; // opposite sides agree
+  for(Index h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    const Index v = t.origin(h), w = t.target(h);
+    if(t.is_border(h))
+      side[v <= n && w <= n ? 0 : v >= n * (n + 1) && w >= n * (n + 1) ? 2 : v % (n + 1) == n ? 1 : 3] += metric.scaled_length(h);
+  }
+  BOOST_CHECK_CLOSE_FRACTION(side[0], side[2], 1e-12);
+  BOOST_CHECK_CLOSE_FRACTION(side[1], side[3], 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(lengths_of_any_size)
+{
+  const Triangulation t = wild(2);
+  const std::vector<double> u = solved(t, Conditions(t)).log_scale_factors;
+  for(const double scale : {1e-150, 1e150})
+  {
+    std::vector<double> lengths(t.lengths());
+    for(double& l : lengths)
+      l *= scale;
+    const Triangulation far = t.with_lengths(lengths);
+    BOOST_CHECK_LE(largest_difference(solved(far, Conditions(far)).log_scale_factors, u), 1e-13);
+  }
+}
+
+// ---- the method
+
+BOOST_AUTO_TEST_CASE(warm_start_needs_no_new_factor)
+{
+  const Index n = 10;
+  const Triangulation t = testing::triangulation(testing::hill(n, .5));
+  CE::Conformal_metric_solver<> solver(t);
+  Conditions conditions = rectangle(t, n);
+  const Metric first = solver.solve(conditions);
+  check_solution(first, conditions);
+  BOOST_CHECK_EQUAL(first.statistics.number_of_factorizations, 1);
+  BOOST_CHECK_GE(first.statistics.number_of_iterations, 2);
+
+  const Metric again = solver.solve(conditions);
+  BOOST_CHECK_EQUAL(again.statistics.number_of_factorizations, 0);
+  BOOST_CHECK_EQUAL(again.statistics.number_of_iterations, 0);
+  BOOST_CHECK_LE(largest_difference(again.log_scale_factors, first.log_scale_factors), 1e-14);
+
+  conditions.prescribe_angle_sum(3, Angle::pi_times(11, 12));
+  conditions.prescribe_angle_sum(5, Angle::pi_times(13, 12));
+  const Metric changed = solver.solve(conditions);
+  check_solution(changed, conditions);
+  BOOST_CHECK_EQUAL(changed.statistics.number_of_factorizations, 0);
+  BOOST_CHECK_LE(largest_difference(changed.log_scale_factors, solved(t, conditions).log_scale_factors), 1e-12);
+
+  // other free vertices: a new factor; changed fixed factors: none
+  Conditions natural(t);
+  check_solution(solver.solve(natural), natural);
+  for(Index v = 0; v <= n; ++v)
+    natural.fix_log_scale_factor(v, .02 * v);
+  const Metric moved = solver.solve(natural);
+  check_solution(moved, natural);
+  BOOST_CHECK_EQUAL(moved.statistics.number_of_factorizations, 0);
+  BOOST_CHECK_LE(largest_difference(moved.log_scale_factors, solved(t, natural).log_scale_factors), 1e-12);
+
+  // begin at the solution
+  typedef boost::typed_identity_property_map<std::uint32_t> Id;
+  const auto initial = boost::make_iterator_property_map(moved.log_scale_factors.begin(), Id());
+  BOOST_CHECK_EQUAL(solved(t, natural, params::initial_log_scale_factor_map(initial)).statistics.number_of_iterations, 0);
+}
+
+// Solves A x = b, dense.
+std::vector<double> solution(std::vector<std::vector<double> > a, std::vector<double> b)
+{
+  const std::size_t n = b.size();
+  for(std::size_t k = 0; k < n; ++k)
+    for(std::size_t i = k + 1; i < n; ++i)
+    {
+      const double factor = a[i][k] / a[k][k];
+      for(std::size_t j = k; j < n; ++j)
+        a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  for(std::size_t k = n; k-- > 0; b[k] /= a[k][k])
+    for(std::size_t j = k + 1; j < n; ++j)
+      b[k] -= a[k][j] * b[j];
+  return b;
+}
+
+// The solution of the Poisson equation (12), Delta u = -K, u = 0 on the border, with the cot-Laplace operator
+// 1/2 sum w_ij (u_i - u_j).
+std::vector<double> poisson_solution(const Triangulation& t)
+{
+  const std::size_t n = t.number_of_vertices();
+  std::vector<std::vector<double> > a(n, std::vector<double>(n, 0.));
+  for(Index h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    const double x = t.halfedge_length(h), y = t.halfedge_length(t.next(h)), z = t.halfedge_length(t.previous(h));
+    const double s = (x + y + z) / 2, area = std::sqrt(s * (s - x) * (s - y) * (s - z));
+    const double half_cotangent = (y * y + z * z - x * x) / (8 * area);
+    const Index i = t.origin(h), j = t.target(h);
+    a[i][i] += half_cotangent;
+    a[j][j] += half_cotangent;
+    a[i][j] -= half_cotangent;
+    a[j][i] -= half_cotangent;
+  }
+  std::vector<double> b = CE::discrete_curvatures(t);
+  for(Index v = 0; v < n; ++v)
+  {
+    b[v] = t.is_border_vertex(v) ? 0 : -b[v];
+    if(t.is_border_vertex(v))
+    {
+      a[v].assign(n, 0.);
+      a[v][v] = 1;
+    }
+  }
+  return solution(a, b);
+}
+
+BOOST_AUTO_TEST_CASE(first_newton_step_solves_the_poisson_equation)
+{
+  for(const testing::Soup& soup : {testing::hill(8, .4), testing::annulus(3, 9, .3), testing::random_height_field(6, .3, 4)})
+  {
+    const Triangulation t = testing::triangulation(soup);
+    const Conditions conditions(t);
+    std::vector<char> free;
+    std::vector<double> target;
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+    {
+      free.push_back(conditions.is_fixed(v) ? 0 : 1);
+      target.push_back(conditions.is_fixed(v) ? 0 : 2 * CGAL_PI);
+    }
+    CEi::Conformal_energy<double> energy(t);
+    CEi::Laplacian_solver<CE::Default_solver_traits> linear{CE::Default_solver_traits()};
+    linear.set_edges(t);
+    linear.set_free(free);
+    CEi::Newton_options options;
+    options.number_of_iterations = 1;
+    CE::Statistics statistics;
+    CE::Default_visitor visitor;
+    CEi::Newton_method<CEi::Conformal_energy<double>, CE::Default_solver_traits, CE::Default_visitor>
+      newton(energy, linear, target, options, statistics, visitor);
+    std::vector<double> u(t.number_of_vertices(), 0.);
+    BOOST_CHECK(newton(u) == Status::ITERATIONS_EXHAUSTED); // one step is not enough
+    BOOST_CHECK_EQUAL(statistics.number_of_iterations, 1);
+    BOOST_CHECK_EQUAL(statistics.number_of_factorizations + linear.number_of_factorizations(), 1);
+    const std::vector<double> poisson = poisson_solution(t);
+    BOOST_CHECK_LE(largest_difference(u, poisson), 1e-13);
+    BOOST_CHECK_GT(largest_difference(u, std::vector<double>(u.size(), 0.)), 1e-2);
+    // but it is not the flat metric
+    BOOST_CHECK_GT(largest_difference(solved(t, conditions).log_scale_factors, poisson), 1e-4);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(both_strategies_find_the_same)
+{
+  for(unsigned seed = 0; seed < 4; ++seed)
+  {
+    const Triangulation t = seed == 0 ? testing::triangulation(testing::hill(12, 1.2)) : wild(seed);
+    const Conditions conditions(t);
+    const Metric a = solved(t, conditions, params::newton_strategy(CE::Newton_strategy::LINE_SEARCH));
+    const Metric b = solved(t, conditions, params::newton_strategy(CE::Newton_strategy::TRUST_REGION));
+    BOOST_CHECK_LE(largest_difference(a.log_scale_factors, b.log_scale_factors), 1e-12);
+    BOOST_CHECK_LE(a.statistics.number_of_iterations, 10);
+    BOOST_CHECK_LE(b.statistics.number_of_iterations, 20);
+  }
+}
+
+// Far away from the solution, across broken triangles.
+BOOST_AUTO_TEST_CASE(both_strategies_come_back_from_afar)
+{
+  const Triangulation t = testing::triangulation(testing::hill(8, .5));
+  const Conditions conditions(t);
+  const std::vector<double> u = solved(t, conditions).log_scale_factors;
+  std::vector<double> far = testing::random_numbers(u.size(), 4, 3);
+  const auto initial = boost::make_iterator_property_map(far.begin(), boost::typed_identity_property_map<std::uint32_t>());
+  for(const CE::Newton_strategy strategy : {CE::Newton_strategy::LINE_SEARCH, CE::Newton_strategy::TRUST_REGION})
+  {
+    const Metric metric = solved(t, conditions, params::newton_strategy(strategy).initial_log_scale_factor_map(initial));
+    BOOST_CHECK_LE(largest_difference(metric.log_scale_factors, u), 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(solvers_of_the_user)
+{
+  typedef CGAL::Eigen_sparse_matrix<double>::EigenType Matrix;
+  const Triangulation t = wild(5);
+  const Conditions conditions(t);
+  const std::vector<double> u = solved(t, conditions).log_scale_factors;
+  const auto check = [&](const auto& traits)
+  {
+    BOOST_CHECK_LE(largest_difference(solved(t, conditions, params::gradient_tolerance(1e-12).sparse_linear_solver(traits))
+                                      .log_scale_factors, u), 1e-12);
+  };
+  check(CGAL::Eigen_solver_traits<Eigen::SparseLU<Matrix> >());
+  check(CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Matrix> >());
+  check(CGAL::Eigen_solver_traits<Eigen::ConjugateGradient<CGAL::Eigen_sparse_symmetric_matrix<double>::EigenType> >());
+}
+
+struct Watch
+{
+  std::size_t stages = 0, iterations = 0, most = 1000;
+  std::vector<double> residuals;
+  void on_stage(CE::Stage stage) { stages += stage == CE::Stage::SOLVE ? 1 : 0; }
+  void on_iteration(std::size_t iteration, double r)
+  {
+    BOOST_CHECK_EQUAL(iteration, iterations++);
+    residuals.push_back(r);
+  }
+  bool go_further() { return iterations < most; }
+};
+
+BOOST_AUTO_TEST_CASE(visitors_watch_and_stop)
+{
+  const Triangulation t = wild(6);
+  const Conditions conditions(t);
+  Watch watch;
+  const Metric metric = solved(t, conditions, params::gradient_tolerance(1e-12).visitor(std::ref(watch)));
+  BOOST_CHECK_EQUAL(watch.stages, 1);
+  BOOST_CHECK_EQUAL(watch.iterations, metric.statistics.number_of_iterations + 1);
+  BOOST_CHECK_GT(watch.residuals.front(), 1e-2);
+  Watch stop;
+  stop.most = 2;
+  const Metric stopped = CE::compute_conformal_metric(t, conditions, params::gradient_tolerance(1e-12).visitor(std::ref(stop)));
+  BOOST_CHECK(stopped.status == Status::STOPPED_BY_VISITOR && !stopped);
+  BOOST_CHECK_EQUAL(stop.iterations, 2);
+  BOOST_CHECK(stopped.log_scale_factors.empty() && stopped.scale_factors.empty());
+}
+
+BOOST_AUTO_TEST_CASE(few_iterations_are_said_to_be_too_few)
+{
+  const Triangulation t = wild(6);
+  const Metric metric = CE::compute_conformal_metric(t, Conditions(t), params::gradient_tolerance(1e-12).number_of_iterations(1));
+  BOOST_CHECK(metric.status == Status::ITERATIONS_EXHAUSTED);
+  BOOST_CHECK_GT(metric.amount, 1e-12);
+  BOOST_CHECK(metric.log_scale_factors.empty());
+  const Metric other = CE::compute_conformal_metric(t, Conditions(t), params::retriangulation(CE::Retriangulation::ALWAYS));
+  BOOST_CHECK(other.status == Status::NOT_AVAILABLE);
+}
+
+// du/dt = K^ - K~ (section 2.2), by Euler's method, ends at the minimizer.
+BOOST_AUTO_TEST_CASE(curvature_flow_reaches_the_same_factors)
+{
+  const Triangulation t = testing::triangulation(testing::torus(5, 5, 2, .8));
+  const std::vector<double> u = solved(t, Conditions(t)).log_scale_factors;
+  std::vector<double> flow(u.size(), 0.);
+  CEi::Conformal_energy<double> energy(t);
+  for(int i = 0; i < 2000; ++i)
+  {
+    energy.evaluate(flow);
+    for(Index v = 0; v < flow.size(); ++v)
+      flow[v] += .1 * (energy.angle_sums()[v] - 2 * CGAL_PI);
+  }
+  BOOST_CHECK_GT(largest_difference(u, std::vector<double>(u.size(), 0.)), .1);
+  BOOST_CHECK_LE(largest_difference(centered(flow), u), 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(fifty_digits)
+{
+  typedef CE::Intrinsic_triangulation<Real> Wide_triangulation;
+  const Wide_triangulation t = testing::triangulation<Real>(testing::random_height_field(5, .5, 7));
+  const auto metric = CE::compute_conformal_metric(t, CE::Conformal_conditions<Real>(t), params::gradient_tolerance(1e-45));
+  BOOST_REQUIRE(metric.status == Status::OK);
+  const std::vector<Real> k = CE::discrete_curvatures(CE::apply_log_scale_factors(t, metric.log_scale_factors));
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_border_vertex(v))
+      BOOST_CHECK_LE(abs(k[v]), Real("1e-44"));
+}
+
+// ---- what has no solution
+
+Metric refused(const Triangulation& t, const Conditions& conditions, Status status)
+{
+  const Metric metric = CE::compute_conformal_metric(t, conditions);
+  BOOST_CHECK_MESSAGE(metric.status == status, CE::message(metric.status) << " instead of " << CE::message(status));
+  BOOST_CHECK(metric.log_scale_factors.empty() && metric.scale_factors.empty());
+  BOOST_CHECK_EQUAL(metric.statistics.number_of_iterations, 0);
+  return metric;
+}
+
+BOOST_AUTO_TEST_CASE(impossible_conditions_are_refused)
+{
+  refused(Triangulation(), Conditions(Triangulation()), Status::EMPTY_MESH);
+  refused(Triangulation(3, {}, {}), Conditions(Triangulation(3, {}, {})), Status::EMPTY_MESH);
+
+  const Index n = 4, inner = 2 * (n + 1) + 2;
+  const Triangulation t = testing::triangulation(testing::hill(n, .3));
+  for(const double bad : {nan, infinity, -infinity})
+  {
+    Conditions conditions(t);
+    conditions.fix_log_scale_factor(3, bad);
+    BOOST_CHECK(refused(t, conditions, Status::INVALID_NUMBER).vertices == std::vector<Index>{3});
+    conditions = Conditions(t);
+    conditions.prescribe_angle_sum(inner, bad);
+    BOOST_CHECK(refused(t, conditions, Status::INVALID_NUMBER).vertices == std::vector<Index>{inner});
+  }
+  for(const double bad : {0., -1., double(t.degree(inner)) * CGAL_PI, 100.})
+  {
+    Conditions conditions(t);
+    conditions.prescribe_angle_sum(inner, bad);
+    const Metric metric = refused(t, conditions, Status::ANGLE_OUT_OF_RANGE);
+    BOOST_CHECK(metric.vertices == std::vector<Index>{inner});
+    BOOST_CHECK_CLOSE_FRACTION(metric.amount + 1, bad + 1, 1e-15);
+  }
+  // corner 0 of two triangles and corner n of one: pi there is too much
+  Conditions straight = rectangle(t, n);
+  straight.prescribe_angle_sum(n, Angle::pi_times(1));
+  BOOST_CHECK(refused(t, straight, Status::ANGLE_OUT_OF_RANGE).vertices == std::vector<Index>{n});
+}
+
+BOOST_AUTO_TEST_CASE(gauss_bonnet_is_demanded)
+{
+  const Index n = 4;
+  const Triangulation t = testing::triangulation(testing::hill(n, .3));
+  Conditions conditions = rectangle(t, n);
+  conditions.prescribe_angle_sum(2, Angle::pi_times(5, 6)); // pi / 6 less
+  BOOST_CHECK_CLOSE_FRACTION(refused(t, conditions, Status::GAUSS_BONNET_VIOLATED).amount, CGAL_PI / 6, 1e-14);
+  conditions.prescribe_angle_sum(2, Angle::pi_times(7, 6));
+  BOOST_CHECK_CLOSE_FRACTION(refused(t, conditions, Status::GAUSS_BONNET_VIOLATED).amount, -CGAL_PI / 6, 1e-14);
+  // written with few digits: the defect is spread over what is not exact
+  conditions.prescribe_angle_sum(2, 2.6179938780 + .01);
+  conditions.prescribe_angle_sum(7, 2 * CGAL_PI + CGAL_PI / 6 - .01);
+  const Metric metric = CE::compute_conformal_metric(t, conditions);
+  BOOST_CHECK(metric.status == Status::OK);
+  BOOST_CHECK_GT(metric.statistics.angle_defect_spread, 1e-13);
+  BOOST_CHECK_LE(metric.statistics.angle_defect_spread, 1e-10);
+  conditions.prescribe_angle_sum(2, 2.617993 + .01);
+  refused(t, conditions, Status::GAUSS_BONNET_VIOLATED);
+
+  const Triangulation sphere = testing::triangulation(testing::icosphere(1)); // a sphere is not flat
+  BOOST_CHECK_CLOSE_FRACTION(refused(sphere, Conditions(sphere), Status::GAUSS_BONNET_VIOLATED).amount, -4 * CGAL_PI, 1e-14);
+  // the second of two components
+  const Triangulation both = testing::triangulation(testing::together({testing::hill(3, .2), testing::icosahedron()}));
+  refused(both, Conditions(both), Status::GAUSS_BONNET_VIOLATED);
+
+  // a flat disk with a straight border needs three fixed vertices: one or two are left no angle
+  for(Index fixed = 1; fixed <= 4; ++fixed)
+  {
+    Conditions mixed(t);
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      if(t.is_border_vertex(v))
+        mixed.prescribe_angle_sum(v, Angle::pi_times(1));
+    const std::array<Index, 4> corners = {{n, n * (n + 1), 0, n * (n + 1) + n}}; // the first two have one triangle each
+    for(Index i = 0; i < fixed; ++i)
+      mixed.fix_log_scale_factor(corners[i], 0);
+    if(fixed == 1)
+      refused(t, mixed, Status::ANGLE_OUT_OF_RANGE);
+    else if(fixed == 2)
+      refused(t, mixed, Status::GAUSS_BONNET_VIOLATED);
+    else
+      solved(t, mixed);
+  }
+}
+
+// Three triangles around an apex, with a border edge too long for the others.
+BOOST_AUTO_TEST_CASE(degenerate_minimizers_are_named)
+{
+  for(const double longest : {3., 1.1})
+  {
+    Triangulation t = testing::triangulation(testing::cone(3, 1));
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      t.set_length(e, t.is_border_edge(e) ? 1 : 2);
+    t.set_length(t.edge(1), longest);
+    BOOST_REQUIRE(CE::is_valid_metric(t));
+    const Metric metric = CE::compute_conformal_metric(t, Conditions(t));
+    if(longest < 2) // the three border lengths are those of a triangle
+    {
+      check_solution(metric, Conditions(t));
+      continue;
+    }
+    BOOST_CHECK(metric.status == Status::DEGENERATE_METRIC && !metric);
+    BOOST_CHECK(metric.faces == std::vector<Index>{0});
+    // the minimizer: angle pi in face 0, a right angle in the others
+    BOOST_REQUIRE_EQUAL(metric.log_scale_factors.size(), 4);
+    BOOST_CHECK_SMALL(metric.log_scale_factors[0] - 2 * std::log(std::sqrt(.5) / 2), 1e-12);
+  }
+}
+
+// ---- Appendix E
+
+// Among the flat metrics, u = 0 on the border has the least Dirichlet energy, better and better so as the
+// mesh is refined: for border data s phi, D(s) - D(0) becomes a multiple of s^2.
+BOOST_AUTO_TEST_CASE(natural_border_has_the_least_dirichlet_energy)
+{
+  const std::vector<std::function<double(double, double)> > data = {
+    [](double x, double) { return x; }, [](double x, double y) { return std::sin(4 * x - 3 * y); }, [](double x, double y) { return x * x - y * y; }};
+  const auto dirichlet = [](const Triangulation& t, const testing::Soup& soup, const std::function<double(double, double)>& phi, double s)
+  {
+    Conditions conditions(t);
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      if(t.is_border_vertex(v))
+        conditions.fix_log_scale_factor(v, s * phi(soup.points[v][0], soup.points[v][1]));
+    return CE::dirichlet_energy(t, solved(t, conditions).log_scale_factors);
+  };
+  std::vector<double> last(data.size() + 1, 1.);
+  for(const Index n : {6, 12, 24})
+  {
+    const testing::Soup soup = testing::hill(n, .5);
+    const Triangulation t = testing::triangulation(soup);
+    const double least = dirichlet(t, soup, data[0], 0);
+    for(std::size_t i = 0; i < data.size(); ++i)
+    {
+      const double s = .25, more = dirichlet(t, soup, data[i], s), less = dirichlet(t, soup, data[i], -s);
+      BOOST_CHECK_GT(more, least);
+      BOOST_CHECK_GT(less, least);
+      const double skew = std::abs(more - less) / (more + less - 2 * least); // 0 at a critical point
+      BOOST_TEST_MESSAGE("n = " << n << ", border data " << i << ": D = " << less << ' ' << least << ' ' << more << ", skew " << skew);
+      BOOST_CHECK_LT(skew, last[i]);
+      last[i] = skew;
+    }
+    BOOST_CHECK_GT(CE::dirichlet_energy(t, solved(t, rectangle(t, n)).log_scale_factors), least);
+  }
+  for(std::size_t i = 0; i < data.size(); ++i)
+    BOOST_CHECK_LT(last[i], .1);
+}
+
+} // namespace

@@ -1,0 +1,447 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The formulas of one triangle and the energy E, its gradient and its Hessian (equations (6) to
+// (10), (13), (14)), against wide arithmetic and differences taken in it.
+
+#define BOOST_TEST_MODULE test_energy
+#include "include/boost_test.h"
+#include "include/test_meshes.h"
+
+#include <CGAL/Conformal_equivalence/internal/energy.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <limits>
+
+namespace CEi = CGAL::Conformal_equivalence::internal;
+namespace mp = boost::multiprecision;
+
+typedef mp::number<mp::cpp_bin_float_50::backend_type, mp::et_off> Real;
+typedef CGAL::Conformal_equivalence::Intrinsic_triangulation<> Triangulation;
+using testing::Index;
+
+namespace {
+
+const double eps = std::numeric_limits<double>::epsilon();
+const Real step("1e-16"); // of central differences: their error is step^2 times a third derivative
+
+typedef std::array<double, 3> Sides;
+
+// Triangles with none, one and two small angles; all but the last four moderately so.
+const std::vector<Sides> triangles = {{{1, 1, 1}}, {{3, 4, 5}}, {{7, 5, 3}}, {{1, 1, 1.9375}}, {{1, 1, .03125}}, {{1, .75, 1.734375}},
+                                      {{1, 1, 1e-12}}, {{1, 1e-12, 1}}, {{1, 1, 2 - 4 * eps}}, {{1, 1.5, 2.5 - 1e-13}}};
+const std::vector<Sides> broken_triangles = {{{1, 1, 3}}, {{5, 1, 2}}, {{.25, 8, .5}}, {{1, 3, 2}}, {{1, 2, 3}}}; // the last two exactly degenerate
+
+template <typename NT>
+CEi::Incircle_form<NT> incircle(const Sides& s)
+{
+  return CEi::Incircle_form<NT>(NT(s[0]), NT(s[1]), NT(s[2]));
+}
+
+template <typename NT>
+CEi::Triangle_angles<NT> angles_of(const Sides& s)
+{
+  return CEi::triangle_angles<NT>(NT(s[0]), NT(s[1]), NT(s[2]));
+}
+
+std::array<Real, 3> logarithmic(const Sides& s)
+{
+  return {{2 * log(Real(s[0])), 2 * log(Real(s[1])), 2 * log(Real(s[2]))}};
+}
+
+std::array<Real, 3> angles_at(const std::array<Real, 3>& lambda)
+{
+  return CEi::triangle_angles<Real>(exp(lambda[0] / 2), exp(lambda[1] / 2), exp(lambda[2] / 2)).angle;
+}
+
+// With u and u + change at the corners; corner k is opposite to side k.
+std::array<Real, 3> changed(std::array<Real, 3> lambda, const std::array<Real, 3>& u, const Real& t)
+{
+  for(int k = 0; k < 3; ++k)
+    lambda[k] += t * (u[(k + 1) % 3] + u[(k + 2) % 3]);
+  return lambda;
+}
+
+// ---- one triangle
+
+BOOST_AUTO_TEST_CASE(angles_and_cotangents_of_any_triangle)
+{
+  typedef mp::number<mp::cpp_bin_float_100::backend_type, mp::et_off> Exact;
+  std::vector<Sides> all = triangles;
+  testing::Random random(3);
+  for(int i = 0; i < 2000; ++i) // needles and caps to within a rounding of degenerate
+  {
+    const double a = random(.5, 2), b = std::exp(random(-30, 0)), least = std::abs(a - b), most = a + b;
+    const double c = i % 3 == 0 ? random(least, most) : i % 3 == 1 ? most - b * std::exp(random(-36, 0))
+                                                                   : least + b * std::exp(random(-36, 0));
+    const std::array<Sides, 3> orders = {{{{a, b, c}}, {{c, a, b}}, {{b, c, a}}}};
+    all.push_back(orders[i / 3 % 3]);
+  }
+  std::size_t tested = 0;
+  double worst_angle = 0, worst_cotangent = 0;
+  for(const Sides& s : all)
+  {
+    const auto exact = angles_of<Exact>(s);
+    const auto got = angles_of<double>(s);
+    BOOST_CHECK_EQUAL(got.is_broken, exact.is_broken); // the numbers stored decide
+    if(exact.is_broken)
+      continue;
+    ++tested;
+    for(int k = 0; k < 3; ++k)
+    {
+      // s, s - a, s - b, s - c carry at most 3/2 roundings, r^2 at most 15/2, r at most 5
+      const Exact error = abs(Exact(got.angle[k] - exact.angle[k])) / exact.angle[k];
+      worst_angle = (std::max)(worst_angle, double(error) / eps);
+      // x - 1/x loses digits near a right angle only, absolutely
+      const Exact far = abs(Exact(got.cotangent[k] - exact.cotangent[k])) / (1 + abs(exact.cotangent[k]));
+      worst_cotangent = (std::max)(worst_cotangent, double(far) / eps);
+      BOOST_CHECK_CLOSE_FRACTION(double(1 / tan(exact.angle[k])), double(exact.cotangent[k]), 1e-9 * (1 + 1 / std::abs(double(exact.cotangent[k]))));
+    }
+    BOOST_CHECK_SMALL(got.angle[0] + got.angle[1] + got.angle[2] - testing::pi, 8 * eps);
+  }
+  BOOST_TEST_MESSAGE(tested << " triangles; angles within " << worst_angle << " eps, cotangents within "
+                     << worst_cotangent << " eps");
+  BOOST_CHECK_GT(tested, 1500);
+  BOOST_CHECK_LE(worst_angle, 6);
+  BOOST_CHECK_LE(worst_cotangent, 8);
+}
+
+BOOST_AUTO_TEST_CASE(angles_are_homogeneous)
+{
+  for(const Sides& s : triangles)
+    for(const int exponent : {-500, -300, 300, 490})
+    {
+      const auto here = angles_of<double>(s);
+      const auto far = angles_of<double>({{std::ldexp(s[0], exponent), std::ldexp(s[1], exponent), std::ldexp(s[2], exponent)}});
+      for(int k = 0; k < 3; ++k)
+        BOOST_CHECK_CLOSE_FRACTION(far.angle[k], here.angle[k], 4 * eps);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(broken_triangles_have_the_angles_pi_0_0)
+{
+  for(const Sides& s : broken_triangles)
+  {
+    const auto t = angles_of<double>(s);
+    const auto longest = std::max_element(s.begin(), s.end()) - s.begin();
+    BOOST_CHECK(t.is_broken);
+    for(int k = 0; k < 3; ++k)
+    {
+      BOOST_CHECK_EQUAL(t.angle[k], k == longest ? testing::pi : 0);
+      BOOST_CHECK_EQUAL(t.cotangent[k], 0);
+    }
+  }
+}
+
+template <typename NT>
+void check_rotations(double unit)
+{
+  for(const Sides& s : triangles)
+  {
+    const auto exact = incircle<Real>(s);
+    const CEi::Incircle_form<NT> t = incircle<NT>(s);
+    CEi::Complex_number<NT> product = {NT(1), NT(0)};
+    for(int k = 0; k < 3; ++k)
+    {
+      const Real alpha = CEi::angle(exact, k);
+      const CEi::Complex_number<NT> z = CEi::rotation(t, k), w = CEi::half_angle(t, k), square = w * w;
+      const NT size = w.re * w.re + w.im * w.im;
+      BOOST_CHECK_SMALL(double(Real(Real(z.re) - cos(alpha))), 12 * unit);
+      BOOST_CHECK_SMALL(double(Real(Real(z.im) - sin(alpha))), 12 * unit);
+      BOOST_CHECK_SMALL(double(NT(z.re * z.re + z.im * z.im - 1)), 8 * unit);
+      BOOST_CHECK_SMALL(double(NT(square.re / size - z.re)), 12 * unit);
+      BOOST_CHECK_SMALL(double(NT(square.im / size - z.im)), 12 * unit);
+      product = product * z;
+    }
+    BOOST_CHECK_SMALL(double(NT(product.re + 1)), 40 * unit); // the angles sum to pi
+    BOOST_CHECK_SMALL(double(product.im), 40 * unit);
+  }
+  for(const double x : {0., 1e-20, .5, -1.5, 3.14159, 6.28, -40.})
+  {
+    const CEi::Complex_number<NT> z = CEi::unit_complex(NT(x));
+    BOOST_CHECK_SMALL(double(Real(Real(z.re) - cos(Real(x)))), 4096 * unit); // ten squarings cost ten bits
+    BOOST_CHECK_SMALL(double(Real(Real(z.im) - sin(Real(x)))), 4096 * unit);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(rotations_by_angles)
+{
+  check_rotations<double>(eps);
+  check_rotations<Real>(double(std::numeric_limits<Real>::epsilon()));
+}
+
+// (13): df/dlambda_k = alpha_k / 2, in broken triangles too
+BOOST_AUTO_TEST_CASE(derivative_of_the_energy_of_a_triangle)
+{
+  std::vector<Sides> all(triangles.begin(), triangles.begin() + 6);
+  all.insert(all.end(), broken_triangles.begin(), broken_triangles.end() - 2);
+  for(const Sides& s : all)
+  {
+    const std::array<Real, 3> lambda = logarithmic(s), alpha = angles_at(lambda);
+    for(int k = 0; k < 3; ++k)
+    {
+      std::array<Real, 3> more = lambda, less = lambda;
+      more[k] += step;
+      less[k] -= step;
+      const Real slope = (CEi::triangle_energy(more) - CEi::triangle_energy(less)) / (2 * step);
+      BOOST_CHECK_SMALL(double(Real(slope - alpha[k] / 2)), 1e-24);
+    }
+  }
+}
+
+// (14): how the angles follow u
+BOOST_AUTO_TEST_CASE(derivatives_of_the_angles)
+{
+  const std::array<Real, 3> u = {{Real(".7"), Real("-1.1"), Real(".2")}};
+  for(std::size_t i = 0; i < 6; ++i)
+  {
+    const std::array<Real, 3> lambda = logarithmic(triangles[i]);
+    const auto cot = angles_of<Real>(triangles[i]).cotangent;
+    const auto more = angles_at(changed(lambda, u, step)), less = angles_at(changed(lambda, u, -step));
+    for(int a = 0; a < 3; ++a)
+    {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      const Real slope = (more[a] - less[a]) / (2 * step);
+      const Real expected = (cot[b] * (u[c] - u[a]) + cot[c] * (u[b] - u[a])) / 2;
+      BOOST_CHECK_SMALL(double(Real(slope - expected)), 1e-24);
+    }
+  }
+}
+
+// C^1: where a triangle breaks, f is continuous and so are its slopes, the angles, with the order 1/2.
+BOOST_AUTO_TEST_CASE(energy_of_a_triangle_is_smooth_where_it_breaks)
+{
+  for(const Sides& s : {Sides{{1, 2, 3}}, Sides{{1.25, 1, .25}}, Sides{{1, 1 + 1. / 1024, 1. / 1024}}})
+    for(const char* distance : {"1e-6", "1e-12", "1e-24"})
+    {
+      const Real t(distance), root = sqrt(t);
+      const std::array<Real, 3> lambda = logarithmic(s);
+      for(int k = 0; k < 3; ++k)
+      {
+        std::array<Real, 3> more = lambda, less = lambda;
+        more[k] += t;
+        less[k] -= t;
+        const auto alpha = angles_at(lambda), above = angles_at(more), below = angles_at(less);
+        for(int m = 0; m < 3; ++m)
+        {
+          BOOST_CHECK_LE(abs(Real(above[m] - alpha[m])), 100 * root);
+          BOOST_CHECK_LE(abs(Real(below[m] - alpha[m])), 100 * root);
+        }
+        const Real f = CEi::triangle_energy(lambda);
+        const Real slope_above = (CEi::triangle_energy(more) - f) / t, slope_below = (f - CEi::triangle_energy(less)) / t;
+        BOOST_CHECK_LE(abs(Real(slope_above - alpha[k] / 2)), 50 * root);
+        BOOST_CHECK_LE(abs(Real(slope_below - alpha[k] / 2)), 50 * root);
+        BOOST_CHECK_GE(slope_above, slope_below - Real("1e-24")); // convex
+      }
+    }
+}
+
+// ---- the energy of a surface
+
+std::vector<Triangulation> surfaces()
+{
+  testing::Soup noisy = testing::icosahedron();
+  testing::add_noise(noisy, .2, 5);
+  return {testing::triangulation(testing::one_triangle({{0, 0, 0}}, {{3, 0, 0}}, {{1, 2, 0}})),
+          testing::triangulation(testing::hill(3, .6)), testing::triangulation(noisy),
+          testing::triangulation(testing::annulus(1, 5, .3)), testing::triangulation(testing::torus(3, 4)),
+          testing::triangulation(testing::together({testing::cone(3, 1), testing::cone(5, .3)}, true)),
+          testing::one_vertex_torus(2., 1.5, 1.)};
+}
+
+template <typename NT>
+std::vector<NT> as(const std::vector<double>& x)
+{
+  return std::vector<NT>(x.begin(), x.end());
+}
+
+template <typename NT>
+std::vector<NT> moved(std::vector<NT> u, const std::vector<NT>& d, const NT& t)
+{
+  for(std::size_t v = 0; v < u.size(); ++v)
+    u[v] += t * d[v];
+  return u;
+}
+
+typedef CEi::Conformal_energy<Real, double> Energy;
+
+// Small u, and u that break triangles.
+std::vector<double> some_u(const Triangulation& t, unsigned seed)
+{
+  return testing::random_numbers(t.number_of_vertices(), seed % 2 == 0 ? .2 : 3, seed);
+}
+
+BOOST_AUTO_TEST_CASE(gradient_and_hessian_are_the_derivatives)
+{
+  std::size_t whole = 0, broken = 0;
+  for(const Triangulation& t : surfaces())
+    for(unsigned seed = 0; seed < 4; ++seed)
+    {
+      const std::vector<Real> u = as<Real>(some_u(t, seed)), target = as<Real>(testing::random_numbers(u.size(), 6, 9)),
+                              d = as<Real>(testing::random_numbers(u.size(), 1, 17 + seed));
+      Energy energy(t);
+      energy.evaluate(moved(u, d, step));
+      const std::vector<Real> more = energy.angle_sums();
+      energy.evaluate(moved(u, d, Real(-step)));
+      const std::vector<Real> less = energy.angle_sums();
+      BOOST_REQUIRE(energy.evaluate(u));
+      (energy.broken_faces().empty() ? whole : broken) += 1;
+      const std::vector<Real> hessian = energy.hessian_product(d);
+      Real slope(0);
+      for(Index v = 0; v < u.size(); ++v)
+      {
+        if(t.is_isolated_vertex(v))
+        {
+          BOOST_CHECK_EQUAL(energy.angle_sums()[v], 0);
+          continue;
+        }
+        slope += (target[v] - energy.angle_sums()[v]) / 2 * d[v]; // (9)
+        BOOST_CHECK_SMALL(double(Real(-(more[v] - less[v]) / (4 * step) - hessian[v])), 1e-20); // (10)
+      }
+      const Real difference = (energy.value(moved(u, d, step), target) - energy.value(moved(u, d, Real(-step)), target)) / (2 * step);
+      BOOST_CHECK_SMALL(double(Real(difference - slope)), 1e-20);
+    }
+  BOOST_TEST_MESSAGE(whole << " metrics and " << broken << " with broken triangles");
+  BOOST_CHECK(whole >= 8 && broken >= 8);
+}
+
+BOOST_AUTO_TEST_CASE(energy_is_convex_and_does_not_see_the_scale)
+{
+  std::size_t crossings = 0;
+  for(const Triangulation& t : surfaces())
+    for(unsigned seed = 0; seed < 4; ++seed)
+    {
+      const std::vector<Real> u = as<Real>(testing::random_numbers(t.number_of_vertices(), 5, 2 * seed)),
+                              v = as<Real>(testing::random_numbers(t.number_of_vertices(), 5, 2 * seed + 1));
+      const std::vector<Real> d = moved(v, u, Real(-1)), target = as<Real>(std::vector<double>(u.size(), 2));
+      Energy energy(t);
+      const int n = 24;
+      std::vector<Real> value, slope;
+      std::size_t last = 0;
+      for(int i = 0; i <= n; ++i)
+      {
+        const std::vector<Real> x = moved(u, d, Real(Real(i) / n));
+        value.push_back(energy.value(x, target));
+        energy.evaluate(x);
+        crossings += i > 0 && energy.broken_faces().size() != last ? 1 : 0;
+        last = energy.broken_faces().size();
+        slope.push_back(Real(0));
+        for(Index w = 0; w < x.size(); ++w)
+          if(!t.is_isolated_vertex(w))
+            slope.back() += (target[w] - energy.angle_sums()[w]) / 2 * d[w];
+      }
+      for(int i = 0; i < n; ++i)
+      {
+        BOOST_CHECK_GE(slope[i + 1] - slope[i], Real("-1e-40"));
+        const Real rise = n * (value[i + 1] - value[i]); // between the slopes at both ends
+        BOOST_CHECK(rise >= slope[i] - Real("1e-40") && rise <= slope[i + 1] + Real("1e-40"));
+      }
+      // adding a constant changes E by half the total defect of the targets only
+      Real excess(0);
+      for(Index w = 0; w < u.size(); ++w)
+        excess += t.is_isolated_vertex(w) ? 0 : target[w] / 2;
+      excess -= CEi::Number_constants<Real>::pi() * t.number_of_faces() / 2;
+      const std::vector<Real> shifted = moved(u, std::vector<Real>(u.size(), Real(1)), Real(7));
+      BOOST_CHECK_SMALL(double(Real(energy.value(shifted, target) - value[0] - 7 * excess)), 1e-40);
+    }
+  BOOST_TEST_MESSAGE(crossings << " times a triangle broke or healed between two points");
+  BOOST_CHECK_GT(crossings, 50);
+}
+
+// all but one row and column are positive definite; constants are in the null space
+BOOST_AUTO_TEST_CASE(hessian_is_positive_semidefinite)
+{
+  for(const Triangulation& t : surfaces())
+  {
+    const std::size_t components = CGAL::Conformal_equivalence::connected_components(t).components.size();
+    if(components > 1)
+      continue;
+    CEi::Conformal_energy<double> energy(t);
+    const std::size_t n = t.number_of_vertices();
+    energy.evaluate(std::vector<double>(n, 0.));
+    double largest = 0;
+    for(const double w : energy.weights())
+      largest = (std::max)(largest, std::abs(w));
+    for(const double x : energy.hessian_product(std::vector<double>(n, 1.)))
+      BOOST_CHECK_EQUAL(x, 0);
+    std::vector<std::vector<double> > a;
+    for(std::size_t i = 0; i < n; ++i)
+    {
+      std::vector<double> unit(n, 0.);
+      unit[i] = 1;
+      a.push_back(energy.hessian_product(unit));
+    }
+    for(std::size_t k = 0; k < n; ++k) // Gauss
+    {
+      if(k + 1 < n)
+        BOOST_CHECK_GT(a[k][k], 1e-3 * largest);
+      else
+        BOOST_CHECK_SMALL(a[k][k], 1e-13 * largest);
+      for(std::size_t i = k + 1; i < n; ++i)
+        for(std::size_t j = n; j-- > k;)
+          a[i][j] -= a[i][k] / a[k][k] * a[k][j];
+    }
+    // with broken triangles still semidefinite
+    for(unsigned seed = 0; seed < 10; ++seed)
+    {
+      energy.evaluate(testing::random_numbers(n, 4, seed));
+      const std::vector<double> d = testing::random_numbers(n, 1, 31 + seed), h = energy.hessian_product(d);
+      double form = 0, size = 0;
+      for(std::size_t v = 0; v < n; ++v)
+      {
+        form += d[v] * h[v];
+        size += std::abs(d[v] * h[v]);
+      }
+      BOOST_CHECK_GE(form, -64 * eps * size);
+    }
+  }
+}
+
+template <typename NT>
+void check_against_wide(double unit)
+{
+  double worst = 0;
+  for(const Triangulation& t : surfaces())
+    for(unsigned seed = 0; seed < 4; ++seed)
+    {
+      const std::vector<double> u = some_u(t, seed), target = testing::random_numbers(u.size(), 6, 2);
+      const Real exact = Energy(t).value(as<Real>(u), as<Real>(target));
+      const NT got = CEi::Conformal_energy<NT, double>(t).value(as<NT>(u), as<NT>(target));
+      // each term, of size pi (|lambda| + |u|), with a few roundings
+      double size = 0;
+      for(Index f = 0; f < t.number_of_faces(); ++f)
+        for(Index h = 3 * f; h < 3 * f + 3; ++h)
+          size += testing::pi * (1 + std::abs(2 * std::log(t.halfedge_length(h))) + 3 * std::abs(u[t.origin(h)]));
+      for(std::size_t v = 0; v < u.size(); ++v)
+        size += std::abs(target[v] * u[v]);
+      worst = (std::max)(worst, double(Real(abs(Real(Real(got) - exact)) / (size * unit))));
+    }
+  BOOST_TEST_MESSAGE("energy within " << worst << " units of the last place of its terms");
+  BOOST_CHECK_LE(worst, 4);
+}
+
+BOOST_AUTO_TEST_CASE(energy_in_all_number_types)
+{
+  check_against_wide<double>(eps);
+  check_against_wide<long double>(double(std::numeric_limits<long double>::epsilon()));
+}
+
+// Scaling by powers of two inside changes nothing; ranges beyond double are reported, not computed with.
+BOOST_AUTO_TEST_CASE(lengths_of_any_size)
+{
+  const Triangulation t = surfaces()[1];
+  std::vector<double> lengths(t.lengths());
+  for(double& l : lengths)
+    l = std::ldexp(l, 400);
+  const Triangulation far = t.with_lengths(lengths);
+  const std::vector<double> u = some_u(t, 0);
+  CEi::Conformal_energy<double> here(t, true), there(far, true);
+  BOOST_CHECK(here.evaluate(u) && there.evaluate(u));
+  BOOST_CHECK(here.angle_sums() == there.angle_sums() && here.weights() == there.weights());
+  BOOST_CHECK(!here.evaluate(std::vector<double>(u.size(), 1e4)));
+  BOOST_CHECK(!here.evaluate(std::vector<double>(u.size(), -1e4)));
+  BOOST_CHECK(!here.evaluate(std::vector<double>(u.size(), std::numeric_limits<double>::quiet_NaN())));
+}
+
+} // namespace

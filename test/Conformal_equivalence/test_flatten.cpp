@@ -1,0 +1,1164 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// flatten(), with the conditions that it reads and the layout that it writes. What is written is judged
+// by the checker of check_flattening.h, which shares no code with the package.
+
+#define BOOST_TEST_MODULE test_flatten
+#include "include/boost_test.h"
+#include "include/flattened_meshes.h"
+
+#include <CGAL/Conformal_equivalence/boundary_conditions.h>
+#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/compute_layout.h>
+#include <CGAL/Conformal_equivalence/discrete_metric.h>
+#include <CGAL/Conformal_equivalence/flatten.h>
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/boost/graph/Face_filtered_graph.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace CE = CGAL::Conformal_equivalence;
+namespace params = CGAL::parameters;
+using namespace testing;
+using CE::Status;
+
+namespace {
+
+typedef CE::Flattening_report<Mesh> Report;
+
+const double unwritten = 77;
+const double infinity = std::numeric_limits<double>::infinity();
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+// A mesh with all the maps that flatten() can write, so filled that it shows whether it did.
+struct Maps
+{
+  Mesh sm;
+  Mesh::Property_map<Halfedge, Point_2> uv;
+  Mesh::Property_map<Vertex, double> u, weight, angle, fixed_u;
+  Mesh::Property_map<Vertex, bool> is_fixed;
+  Mesh::Property_map<Edge, double> scaled;
+
+  explicit Maps(const Mesh& mesh) : sm(mesh)
+  {
+    uv = sm.add_property_map<Halfedge, Point_2>("h:uv", Point_2(unwritten, unwritten)).first;
+    u = sm.add_property_map<Vertex, double>("v:u", unwritten).first;
+    weight = sm.add_property_map<Vertex, double>("v:weight", unwritten).first;
+    scaled = sm.add_property_map<Edge, double>("e:scaled", unwritten).first;
+    angle = sm.add_property_map<Vertex, double>("v:angle", 0).first;
+    fixed_u = sm.add_property_map<Vertex, double>("v:fixed_u", 0).first;
+    is_fixed = sm.add_property_map<Vertex, bool>("v:is_fixed", false).first;
+  }
+  explicit Maps(const Soup& soup) : Maps(surface_mesh<Mesh>(soup)) {}
+  Maps(const Maps&) = delete;
+
+  template <typename NamedParameters = decltype(params::gradient_tolerance(1e-12))>
+  Report flatten(const NamedParameters& np = params::gradient_tolerance(1e-12))
+  {
+    return CE::flatten(sm, uv, CE::combine_named_parameters(
+      np, params::log_scale_factor_map(u).projective_weight_map(weight).scaled_edge_length_map(scaled)));
+  }
+
+  bool is_untouched() const
+  {
+    return std::all_of(uv.begin(), uv.end(), [](const Point_2& p) { return p == Point_2(unwritten, unwritten); })
+        && std::all_of(u.begin(), u.end(), [](double x) { return x == unwritten; })
+        && std::all_of(weight.begin(), weight.end(), [](double x) { return x == unwritten; })
+        && std::all_of(scaled.begin(), scaled.end(), [](double x) { return x == unwritten; });
+  }
+};
+
+// The border turns equally everywhere.
+void prescribe_circle(Maps& m)
+{
+  const std::vector<Vertex> border = border_vertices(m.sm);
+  for(Vertex v : border)
+    m.angle[v] = CGAL_PI - 2 * CGAL_PI / double(border.size());
+}
+
+double least(const Mesh::Property_map<Vertex, double>& map) { return *std::min_element(map.begin(), map.end()); }
+double largest(const Mesh::Property_map<Vertex, double>& map) { return *std::max_element(map.begin(), map.end()); }
+
+// Everything that a flattening with natural border promises.
+void check_natural(Maps& m, const Report& report, bool may_be_rounded = false)
+{
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  if(!may_be_rounded)
+    BOOST_TEST((report.status == Status::OK), CE::message(report));
+  BOOST_TEST(report.statistics.residual <= 1e-12);
+  BOOST_TEST(report.layout_length_error <= 4 * rounding_of_lengths(m.sm, m.uv));
+  BOOST_TEST(report.topology.is_disk());
+  const checking::Verdict verdict = judge(m.sm, m.uv);
+  BOOST_TEST(verdict.is_good(), verdict);
+
+  for(Halfedge h : halfedges(m.sm))
+  {
+    if(is_border(h, m.sm))
+    {
+      BOOST_TEST((m.uv[h] == m.uv[prev(opposite(h, m.sm), m.sm)]));
+      BOOST_TEST(m.u[target(h, m.sm)] == 0);
+    }
+    BOOST_TEST((m.uv[h] == m.uv[opposite(next(h, m.sm), m.sm)])); // one corner a vertex: nothing is cut
+  }
+  const double tolerance = (std::max)(1e-12, 16 * rounding_of_lengths(m.sm, m.uv));
+  const double least_u = (std::min)(0., least(m.u));
+  for(Edge e : edges(m.sm))
+  {
+    const Halfedge h = halfedge(e, m.sm);
+    BOOST_TEST(std::abs(uv_length(m.sm, m.uv, is_border(h, m.sm) ? opposite(h, m.sm) : h) / m.scaled[e] - 1) <= tolerance);
+  }
+  for(Vertex v : vertices(m.sm))
+    if(!m.sm.is_isolated(v))
+      BOOST_TEST(std::abs(std::log(m.weight[v]) - (least_u - m.u[v])) <= 1e-12);
+}
+
+template <typename Range>
+std::set<std::size_t> set_of(const Range& range) { return std::set<std::size_t>(range.begin(), range.end()); }
+
+} // namespace
+
+// --- natural border -----------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(generated_disks)
+{
+  const std::vector<Soup> soups = {
+    flat_grid(6), hill(10, .5), random_height_field(8, .8, 7), cone(7, .8), cone(3, .2), star(6),
+    rings(6, [](double x, double y) { return .5 * std::exp(-3 * (x * x + y * y)); }),
+    symmetric_grid(4, [](double x, double y) { return .3 * x * y; }),
+    one_triangle({{0, 0, 0}}, {{1, 0, 0}}, {{.3, 2, 1}}),
+    Soup{{{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, .5}}, {{0, 1, -.5}}}, {{{0, 1, 2}}, {{0, 2, 3}}}} };
+  for(const Soup& soup : soups)
+    for(double factor : { 1., 1e-150, 1e150 })
+    {
+      Maps m(scaled(soup, factor));
+      check_natural(m, m.flatten());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(size_does_not_matter)
+{
+  Maps one(hill(8, .5)), small(scaled(hill(8, .5), std::ldexp(1., -500))), large(scaled(hill(8, .5), 1e150));
+  check_natural(one, one.flatten());
+  check_natural(small, small.flatten());
+  check_natural(large, large.flatten());
+  for(Vertex v : vertices(one.sm))
+  {
+    BOOST_TEST(std::abs(one.u[v] - small.u[v]) <= 1e-14);
+    BOOST_TEST(std::abs(one.u[v] - large.u[v]) <= 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(needles)
+{
+  const std::vector<Soup> soups = {
+    one_triangle({{0, 0, 0}}, {{1, 0, 0}}, {{.5, 1e-7, 0}}),
+    one_triangle({{0, 0, 0}}, {{1e-12, 0, 0}}, {{0, 1, 0}}),
+    scaled(flat_grid(5), 1, 1e-6, 1), scaled(hill(5, .01), 1, 1e-3, 1e-3) };
+  for(const Soup& soup : soups)
+  {
+    Maps m(soup);
+    check_natural(m, m.flatten(), true);
+  }
+  // so flat that its lengths are those of a segment
+  Maps m(one_triangle({{0, 0, 0}}, {{1, 0, 0}}, {{.5, 1e-12, 0}}));
+  const Report report = m.flatten();
+  BOOST_TEST((report.status == Status::DEGENERATE_METRIC), CE::message(report));
+  BOOST_TEST(report.faces.size() == 1u);
+  BOOST_TEST(m.is_untouched());
+
+  // so thin that coordinates may not hold it: right, or refused
+  for(const Point& p : { Point{{1e-300, 0, 0}}, Point{{1e-17, 0, 0}}, Point{{1e-17, 1e-17, 0}} })
+  {
+    Maps thin(one_triangle({{0, 0, 0}}, p, {{-.4, 1, .3}}));
+    const Report verdict = thin.flatten();
+    BOOST_TEST((verdict || verdict.status == Status::NOT_INJECTIVE || verdict.status == Status::DEGENERATE_METRIC), CE::message(verdict));
+    BOOST_TEST((verdict ? judge(thin.sm, thin.uv).not_positive_triangles == 0 : thin.is_untouched()));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(disks_of_CGAL, * needs_mesh("lion-head.off"))
+{
+  for(const std::string& name : good_disks())
+    BOOST_TEST_CONTEXT(name)
+    {
+      Maps m(read_mesh(name));
+      check_natural(m, m.flatten());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(figures_of_lion_head, * needs_mesh("lion-head.off"))
+{
+  Maps m(read_mesh("lion-head.off"));
+  const Report report = m.flatten();
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  BOOST_TEST(report.statistics.number_of_iterations == 6u);
+  BOOST_TEST(std::abs(least(m.u) + 4.468335) <= 1e-6);
+  BOOST_TEST(std::abs(largest(m.u)) <= 1e-6);
+  BOOST_TEST(report.topology.number_of_vertices == num_vertices(m.sm));
+}
+
+BOOST_AUTO_TEST_CASE(figures_of_three_peaks, * needs_mesh("three_peaks.off"))
+{
+  Maps m(read_mesh("three_peaks.off"));
+  const Report report = m.flatten();
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  BOOST_TEST(std::abs(least(m.u) + 4.942533) <= 1e-6);
+  BOOST_TEST(std::abs(largest(m.u) - .075819) <= 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(what_the_fixed_triangulation_cannot_do, * needs_mesh("cylinder_locally_refined.off"))
+{
+  for(const char* name : { "cylinder_locally_refined.off", "mannequin-devil.off", "blob.off",
+                           "corner_tris_with_hole.off", "degtri_sliding.off" })
+    BOOST_TEST_CONTEXT(name)
+    {
+      Maps m(read_mesh(name));
+      const Report report = m.flatten();
+      BOOST_TEST((report.status == Status::DEGENERATE_METRIC || report.status == Status::ITERATIONS_EXHAUSTED),
+                 CE::message(report));
+      BOOST_TEST(!report.faces.empty());
+      BOOST_TEST(report.faces.size() == report.face_indices.size());
+      BOOST_TEST(m.is_untouched());
+      if(std::string(name) == "cylinder_locally_refined.off")
+      {
+        BOOST_TEST((report.status == Status::DEGENERATE_METRIC));
+        BOOST_TEST(set_of(report.face_indices).size() == 6u);
+      }
+    }
+}
+
+// A checker that accepts everything would prove nothing.
+BOOST_AUTO_TEST_CASE(checker_refuses_what_is_perturbed)
+{
+  Maps m(hill(10, .5));
+  BOOST_TEST_REQUIRE(bool(m.flatten()));
+  BOOST_TEST(judge(m.sm, m.uv).is_good());
+  const auto uv = m.sm.add_property_map<Halfedge, Point_2>("h:perturbed").first;
+
+  // one vertex, by 1e-6 of an edge
+  const auto original = [&] { for(Halfedge h : halfedges(m.sm)) uv[h] = m.uv[h]; };
+  original();
+  Vertex inner = *vertices(m.sm).begin();
+  for(Vertex v : vertices(m.sm))
+    if(!CGAL::is_border(v, m.sm))
+      inner = v;
+  for(Halfedge h : CGAL::halfedges_around_target(inner, m.sm))
+    uv[h] = Point_2(m.uv[h].x() + 1e-6 * .1, m.uv[h].y());
+  BOOST_TEST(!judge(m.sm, uv).cross_ratio.is_good());
+
+  // all vertices, as one piece: the two sides of edges still agree
+  original();
+  for(Vertex v : vertices(m.sm))
+  {
+    Random random(v.idx());
+    const double dx = random(-1e-7, 1e-7), dy = random(-1e-7, 1e-7);
+    for(Halfedge h : CGAL::halfedges_around_target(v, m.sm))
+      uv[h] = Point_2(m.uv[h].x() + dx, m.uv[h].y() + dy);
+  }
+  const checking::Verdict verdict = judge(m.sm, uv);
+  BOOST_TEST(verdict.two_sides.is_good());
+  BOOST_TEST(!verdict.cross_ratio.is_good());
+  BOOST_TEST(!verdict.border_scale.is_good());
+
+  // a mirror image
+  for(Halfedge h : halfedges(m.sm))
+    uv[h] = Point_2(-m.uv[h].x(), m.uv[h].y());
+  BOOST_TEST(judge(m.sm, uv).not_positive_triangles == num_faces(m.sm));
+}
+
+BOOST_AUTO_TEST_CASE(numbering_does_not_matter)
+{
+  const Soup soup = hill(9, .7);
+  Random random(5);
+  std::vector<Index> vertex(soup.points.size()), face(soup.triangles.size());
+  const auto shuffle = [&](std::vector<Index>& order)
+  {
+    std::iota(order.begin(), order.end(), 0u);
+    for(Index i = Index(order.size()); i > 1; --i)
+      std::swap(order[i - 1], order[random.below(i)]);
+  };
+  shuffle(vertex);
+  shuffle(face);
+  Soup other = soup;
+  for(Index v = 0; v < vertex.size(); ++v)
+    other.points[vertex[v]] = soup.points[v];
+  for(Index f = 0; f < face.size(); ++f)
+  {
+    auto t = soup.triangles[f];
+    std::rotate(t.begin(), t.begin() + random.below(3), t.end());
+    other.triangles[face[f]] = {{vertex[t[0]], vertex[t[1]], vertex[t[2]]}};
+  }
+  Maps a(soup), b(other);
+  BOOST_TEST_REQUIRE(bool(a.flatten()));
+  BOOST_TEST_REQUIRE(bool(b.flatten()));
+  for(Index v = 0; v < vertex.size(); ++v)
+  {
+    const Vertex va(v), vb(vertex[v]);
+    BOOST_TEST(std::abs(a.u[va] - b.u[vb]) <= 1e-13);
+    BOOST_TEST(plane_distance(a.uv[halfedge(va, a.sm)], b.uv[halfedge(vb, b.sm)]) <= 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(isolated_vertices_are_carried_through)
+{
+  Soup soup = together({hill(6, .4)}, true);
+  soup.points.push_back({{not_a_number, not_a_number, not_a_number}});
+  Maps m(soup), plain(hill(6, .4));
+  const Report report = m.flatten();
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  BOOST_TEST(report.topology.number_of_isolated_vertices == 2u);
+  BOOST_TEST_REQUIRE(bool(plain.flatten()));
+  for(Vertex v : vertices(m.sm))
+    if(m.sm.is_isolated(v))
+    {
+      BOOST_TEST(m.u[v] == unwritten);
+      BOOST_TEST(m.weight[v] == unwritten);
+    }
+    else
+      BOOST_TEST(m.u[v] == plain.u[Vertex(v.idx() - 1)]);
+}
+
+// --- other conditions ---------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(border_angles)
+{
+  for(const Soup& soup : { hill(8, .5), cone(7, .8), star(6), random_height_field(7, .5, 3) })
+  {
+    Maps m(soup);
+    prescribe_circle(m);
+    const Report report = m.flatten(params::border_angle_map(m.angle));
+    BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+    BOOST_TEST(report.statistics.angle_defect_spread <= 1e-12);
+    const checking::Verdict verdict = judge(m.sm, m.uv, false);
+    BOOST_TEST(verdict.is_good(), verdict);
+    const double tolerance = (std::max)(1e-11, 64 * rounding_of_lengths(m.sm, m.uv));
+    for(Vertex v : border_vertices(m.sm))
+      BOOST_TEST(std::abs(uv_angle_sum(m.sm, m.uv, v) - m.angle[v]) <= tolerance);
+    double sum = 0;
+    for(Vertex v : vertices(m.sm))
+      sum += m.u[v];
+    BOOST_TEST(std::abs(sum) <= 1e-12 * double(num_vertices(m.sm)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(border_scale_factors)
+{
+  Maps m(hill(8, .5));
+  for(Vertex v : border_vertices(m.sm))
+    m.fixed_u[v] = .5 * std::sin(5 * m.sm.point(v).x()) + .2 * m.sm.point(v).y();
+  const Report report = m.flatten(params::prescribed_log_scale_factor_map(m.fixed_u));
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  const checking::Verdict verdict = judge(m.sm, m.uv, false);
+  BOOST_TEST(verdict.is_good(), verdict);
+  for(Halfedge h : CGAL::halfedges_around_face(border_halfedge(m.sm), m.sm))
+  {
+    const Vertex v = source(h, m.sm), w = target(h, m.sm);
+    BOOST_TEST(m.u[w] == m.fixed_u[w]);
+    const double l = std::sqrt(CGAL::squared_distance(m.sm.point(v), m.sm.point(w)));
+    BOOST_TEST(std::abs(uv_length(m.sm, m.uv, opposite(h, m.sm)) / (l * std::exp((m.fixed_u[v] + m.fixed_u[w]) / 2)) - 1) <= 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(angles_here_and_scale_factors_there)
+{
+  Maps m(hill(8, .5));
+  for(Vertex v : border_vertices(m.sm))
+  {
+    const Point_3 p = m.sm.point(v);
+    m.is_fixed[v] = p.y() > .5;
+    m.fixed_u[v] = .3 * p.x();
+    m.angle[v] = p.y() == 0 && (p.x() == 0 || p.x() == 1) ? CGAL_PI / 2 : CGAL_PI;
+  }
+  // two orders of one chain, and a chain of two halves, mean the same
+  const auto a = params::border_angle_map(m.angle).prescribed_log_scale_factor_map(m.fixed_u).vertex_is_constrained_map(m.is_fixed);
+  const Report report = m.flatten(a);
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  const checking::Verdict verdict = judge(m.sm, m.uv, false);
+  BOOST_TEST(verdict.is_good(), verdict);
+  for(Vertex v : border_vertices(m.sm))
+  {
+    if(m.is_fixed[v])
+      BOOST_TEST(m.u[v] == m.fixed_u[v]);
+    else
+      BOOST_TEST(std::abs(uv_angle_sum(m.sm, m.uv, v) - m.angle[v]) <= 1e-11);
+  }
+
+  const auto same_as_before = [&](const auto& np)
+  {
+    const auto uv = m.sm.add_property_map<Halfedge, Point_2>("h:again", Point_2(0, 0)).first;
+    BOOST_TEST(bool(CE::flatten(m.sm, uv, np)));
+    BOOST_TEST(std::equal(uv.begin(), uv.end(), m.uv.begin()));
+  };
+  same_as_before(params::prescribed_log_scale_factor_map(m.fixed_u).vertex_is_constrained_map(m.is_fixed).border_angle_map(m.angle));
+  const auto halves = CE::combine_named_parameters(params::vertex_is_constrained_map(m.is_fixed),
+                                                   params::border_angle_map(m.angle).prescribed_log_scale_factor_map(m.fixed_u));
+  same_as_before(halves);
+  same_as_before(halves.gradient_tolerance(1e-12).number_of_iterations(99));
+  // of two values the last counts
+  same_as_before(CE::combine_named_parameters(params::border_angle_map(m.fixed_u), halves));
+}
+
+BOOST_AUTO_TEST_CASE(annulus_has_a_metric_but_no_layout)
+{
+  const Soup soup = annulus(4, 24, .4);
+  Maps m(soup);
+  const auto t = CE::import_mesh(m.sm).triangulation;
+  CE::Conformal_conditions<double> conditions(t);
+  for(Index v = 0; v < t.number_of_vertices(); ++v) // outer border: u; inner border: angles
+    if(t.is_border_vertex(v) && v < 24)
+      conditions.prescribe_angle_sum(v, CE::Exact_angle<double>::pi_times(13, 12));
+  for(const auto& c : { CE::Conformal_conditions<double>(t), conditions })
+  {
+    const auto metric = CE::compute_conformal_metric(t, c);
+    BOOST_TEST_REQUIRE(bool(metric), CE::message(metric.status));
+    BOOST_TEST(metric.statistics.residual <= 1e-12);
+    const std::vector<double> sums = CE::angle_sums(CE::apply_log_scale_factors(t, metric.log_scale_factors));
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      if(c.is_fixed(v))
+        BOOST_TEST(metric.log_scale_factors[v] == 0);
+      else
+        BOOST_TEST(std::abs(sums[v] - c.angle_sum(v).radians()) <= 1e-11);
+  }
+
+  const Report report = m.flatten();
+  BOOST_TEST((report.status == Status::WRONG_TOPOLOGY));
+  BOOST_TEST(report.topology.number_of_borders == 2u);
+  BOOST_TEST(CE::message(report).find("1 component, 2 borders, genus 0") != std::string::npos, CE::message(report));
+  BOOST_TEST(m.is_untouched());
+}
+
+// An inversion of space changes the metric conformally, with u = -2 log of the distance from its center.
+BOOST_AUTO_TEST_CASE(moebius_transformations)
+{
+  const Soup soup = hill(8, .6);
+  const Point center = {{.3, -.4, 1.5}};
+  const double shift = .7; // a similarity on top
+  Soup inverted = soup;
+  for(Point& p : inverted.points)
+  {
+    const double d = distance<double>(p, center);
+    for(int k = 0; k < 3; ++k)
+      p[k] = (p[k] - center[k]) / (d * d);
+  }
+  Maps m(soup), n(inverted);
+  for(Vertex v : vertices(n.sm))
+    n.fixed_u[v] = shift + 2 * std::log(distance<double>(soup.points[v], center));
+
+  const auto before = m.sm.add_property_map<Edge, double>("e:before").first;
+  const auto after = m.sm.add_property_map<Edge, double>("e:after").first;
+  BOOST_TEST(bool(CE::compute_edge_lengths(m.sm, before)));
+  for(Edge e : edges(m.sm))
+    after[e] = std::sqrt(CGAL::squared_distance(n.sm.point(source(e, m.sm)), n.sm.point(target(e, m.sm))));
+  BOOST_TEST(CE::are_conformally_equivalent(m.sm, before, after, 1e-12));
+
+  BOOST_TEST_REQUIRE(bool(m.flatten()));
+  const Report report = n.flatten(params::prescribed_log_scale_factor_map(n.fixed_u));
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  for(Halfedge h : halfedges(m.sm))
+    if(!is_border(h, m.sm))
+      BOOST_TEST(std::abs(uv_length(n.sm, n.uv, h) / (std::exp(shift) * uv_length(m.sm, m.uv, h)) - 1) <= 1e-10);
+  for(Vertex v : vertices(m.sm))
+    BOOST_TEST(std::abs(n.u[v] - m.u[v] - n.fixed_u[v]) <= 1e-10);
+
+  // with u = 0 at its border it is another problem
+  Maps other(inverted);
+  BOOST_TEST_REQUIRE(bool(other.flatten()));
+  double difference = 0;
+  for(Halfedge h : halfedges(m.sm))
+    if(!is_border(h, m.sm))
+      difference = (std::max)(difference, std::abs(uv_angle(m.sm, m.uv, h) - uv_angle(other.sm, other.uv, h)));
+  BOOST_TEST(difference > 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(lengths_without_coordinates)
+{
+  Maps m(hill(7, .5)), bare(hill(7, .5));
+  const auto length = bare.sm.add_property_map<Edge, double>("e:length").first;
+  BOOST_TEST(bool(CE::compute_edge_lengths(m.sm, length)));
+  for(Vertex v : vertices(bare.sm))
+    bare.sm.point(v) = Point_3(not_a_number, 0, 0);
+  BOOST_TEST_REQUIRE(bool(m.flatten()));
+  BOOST_TEST((bare.flatten().status == Status::INVALID_NUMBER));
+  BOOST_TEST(bare.is_untouched());
+  BOOST_TEST_REQUIRE(bool(bare.flatten(params::edge_length_map(length))));
+  BOOST_TEST(std::equal(m.uv.begin(), m.uv.end(), bare.uv.begin()));
+}
+
+// --- rectangle ----------------------------------------------------------------------------------
+
+namespace {
+
+typedef std::array<Vertex, 4> Corners;
+
+void check_rectangle(Maps& m, const Corners& corners)
+{
+  CE::prescribe_rectangle(m.sm, corners, m.angle);
+  const Report report = m.flatten(params::border_angle_map(m.angle));
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  const checking::Verdict verdict = judge(m.sm, m.uv, false);
+  BOOST_TEST(verdict.is_good(), verdict);
+
+  // every border edge lies along one of two directions, at right angles; the corners are where they meet
+  const double rounding = rounding_of_lengths(m.sm, m.uv);
+  std::size_t right_angles = 0, in_order = 0;
+  for(Halfedge h : CGAL::halfedges_around_face(border_halfedge(m.sm), m.sm))
+  {
+    const Point_2 p = m.uv[prev(h, m.sm)], q = m.uv[h], r = m.uv[next(h, m.sm)];
+    const double x = q.x() - p.x(), y = q.y() - p.y(), s = r.x() - q.x(), t = r.y() - q.y();
+    const double size = std::hypot(x, y) * std::hypot(s, t);
+    const double sine = (x * t - y * s) / size, cosine = (x * s + y * t) / size; // clockwise along the border
+    if(std::find(corners.begin(), corners.end(), target(h, m.sm)) != corners.end())
+    {
+      ++right_angles;
+      BOOST_TEST(sine < 0);
+      BOOST_TEST(std::abs(cosine) <= (std::max)(1e-10, 32 * rounding));
+    }
+    else
+    {
+      BOOST_TEST(cosine > 0);
+      BOOST_TEST(std::abs(sine) <= (std::max)(1e-10, 32 * rounding));
+    }
+  }
+  BOOST_TEST(right_angles == 4u);
+  // in the order of the border
+  Halfedge h = border_halfedge(m.sm);
+  while(target(h, m.sm) != corners[0])
+    h = next(h, m.sm);
+  for(const Halfedge first = h; in_order < 4; )
+  {
+    if(target(h, m.sm) == corners[in_order])
+      ++in_order;
+    h = next(h, m.sm);
+    if(h == first)
+      break;
+  }
+  BOOST_TEST(in_order == 4u);
+}
+
+// The Dirichlet energy of u for the corners; infinite if there is no such rectangle.
+double rectangle_energy(const Maps& m, const Corners& corners)
+{
+  const auto mesh = CE::import_mesh(m.sm);
+  CE::Conformal_conditions<double> conditions(mesh.triangulation);
+  for(Vertex v : border_vertices(m.sm))
+  {
+    const bool is_corner = std::find(corners.begin(), corners.end(), v) != corners.end();
+    conditions.prescribe_angle_sum(mesh.index_of_vertex(v), CE::Exact_angle<double>::pi_times(1, is_corner ? 2 : 1));
+  }
+  const auto metric = CE::compute_conformal_metric(mesh.triangulation, conditions);
+  return metric ? CE::dirichlet_energy(mesh.triangulation, metric.log_scale_factors) : infinity;
+}
+
+Corners select_corners(const Mesh& sm, Report& report)
+{
+  return CE::select_rectangle_corners(sm, border_halfedge(sm), params::flattening_report(std::ref(report)));
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(rectangles)
+{
+  for(const Soup& soup : { flat_grid(4), hill(8, .5), random_height_field(6, .5, 2), cone(8, .6),
+                           rings(5, [](double x, double y) { return .4 * std::exp(-3 * (x * x + y * y)); }) })
+  {
+    Maps m(soup);
+    check_rectangle(m, CE::select_rectangle_corners(m.sm, border_halfedge(m.sm)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(rectangles_of_CGAL, * needs_mesh("lion-head.off"))
+{
+  for(const char* name : { "lion-head.off", "nefertiti.off" })
+    BOOST_TEST_CONTEXT(name)
+    {
+      Maps m(read_mesh(name));
+      check_rectangle(m, CE::select_rectangle_corners(m.sm, border_halfedge(m.sm)));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(corners_of_a_square_are_its_corners)
+{
+  const auto bump = [](double x, double y) { return .2 * std::exp(-9 * ((x - .5) * (x - .5) + (y - .5) * (y - .5))); };
+  for(const Soup& soup : { flat_grid(5), symmetric_grid(4, bump), symmetric_grid(5, [](double, double) { return 0.; }) })
+  {
+    Maps m(soup);
+    Report report;
+    const Corners corners = select_corners(m.sm, report);
+    BOOST_TEST((report.status == Status::OK));
+    for(Vertex v : corners)
+    {
+      const Point_3 p = m.sm.point(v);
+      BOOST_TEST(((p.x() == 0 || p.x() == 1) && (p.y() == 0 || p.y() == 1)), p);
+    }
+    BOOST_TEST(std::set<Vertex>(corners.begin(), corners.end()).size() == 4u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(forced_corners)
+{
+  Report report;
+  const Mesh four = surface_mesh<Mesh>(star(4)); // the tips of the star
+  const Corners tips = select_corners(four, report);
+  BOOST_TEST((report.status == Status::OK));
+  for(Vertex v : tips)
+    BOOST_TEST(v.idx() >= 5u);
+
+  const Mesh two = surface_mesh<Mesh>(hill(4, .3)); // two corners of the grid
+  const Corners corners = select_corners(two, report);
+  for(Vertex v : vertices(two))
+    if(degree(v, two) == 2)
+      BOOST_TEST((std::find(corners.begin(), corners.end(), v) != corners.end()));
+
+  Maps six(star(6));
+  const Corners none = select_corners(six.sm, report);
+  BOOST_TEST((report.status == Status::ANGLE_OUT_OF_RANGE));
+  BOOST_TEST(report.amount == CGAL_PI);
+  BOOST_TEST((set_of(report.vertex_indices) == std::set<std::size_t>{ 7, 8, 9, 10, 11, 12 }));
+  BOOST_TEST((none[0] == Mesh::null_vertex()));
+  CE::prescribe_rectangle(six.sm, none, six.angle);
+  BOOST_TEST((six.flatten(params::border_angle_map(six.angle)).status == Status::ANGLE_OUT_OF_RANGE));
+  CE::prescribe_rectangle(six.sm, {{Vertex(7), Vertex(8), Vertex(9), Vertex(10)}}, six.angle);
+  const Report refused = six.flatten(params::border_angle_map(six.angle));
+  BOOST_TEST((refused.status == Status::ANGLE_OUT_OF_RANGE));
+  BOOST_TEST((set_of(refused.vertex_indices) == std::set<std::size_t>{ 11, 12 }));
+  BOOST_TEST(six.is_untouched());
+}
+
+BOOST_AUTO_TEST_CASE(no_corners)
+{
+  Report report;
+  for(const Soup& soup : { one_triangle({{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}), cone(3, .5) })
+  {
+    const Mesh sm = surface_mesh<Mesh>(soup);
+    const Corners corners = select_corners(sm, report);
+    BOOST_TEST((report.status == Status::MISSING_CONDITION));
+    for(Vertex v : corners)
+      BOOST_TEST((v == Mesh::null_vertex()));
+  }
+  const Mesh ring = surface_mesh<Mesh>(annulus(2, 8));
+  BOOST_TEST((select_corners(ring, report)[0] == Mesh::null_vertex()));
+  BOOST_TEST((report.status == Status::WRONG_TOPOLOGY));
+}
+
+BOOST_AUTO_TEST_CASE(no_exchange_of_a_corner_is_better)
+{
+  const auto bump = [](double x, double y) { return .6 * std::exp(-5 * ((x - .3) * (x - .3) + y * y)); };
+  for(const Soup& soup : { hill(4, .5), random_height_field(5, .7, 11), rings(3, bump), cone(9, .5) })
+  {
+    const Maps m(soup);
+    Report report;
+    const Corners corners = select_corners(m.sm, report);
+    BOOST_TEST_REQUIRE((report.status == Status::OK));
+    const double chosen = rectangle_energy(m, corners);
+    BOOST_TEST(std::isfinite(chosen));
+    std::size_t exchanges = 0;
+    for(int k = 0; k < 4; ++k)
+      for(Vertex v : border_vertices(m.sm))
+      {
+        if(degree(corners[k], m.sm) == 2 || std::find(corners.begin(), corners.end(), v) != corners.end())
+          continue; // must be a corner, or is one
+        Corners other = corners;
+        other[k] = v;
+        BOOST_TEST(rectangle_energy(m, other) >= chosen * (1 - 1e-6));
+        ++exchanges;
+      }
+    BOOST_TEST(exchanges > 0u);
+  }
+}
+
+// --- frames -------------------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(canonical_frame)
+{
+  Maps m(scaled(hill(8, .5), 1, 2, 1));
+  BOOST_TEST_REQUIRE(bool(m.flatten(params::layout_frame(CE::Layout_frame::CANONICAL))));
+  double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for(Face f : faces(m.sm))
+  {
+    const Halfedge h = halfedge(f, m.sm);
+    const Point_2 p[3] = { m.uv[h], m.uv[next(h, m.sm)], m.uv[prev(h, m.sm)] };
+    const double a = CGAL::area(p[0], p[1], p[2]);
+    area += a;
+    for(int i = 0; i < 3; ++i)
+    {
+      x += a * p[i].x() / 3;
+      y += a * p[i].y() / 3;
+      const Point_2 c((p[i].x() + p[(i + 1) % 3].x()) / 2, (p[i].y() + p[(i + 1) % 3].y()) / 2);
+      xx += a * c.x() * c.x() / 3; // exact for quadratic functions
+      xy += a * c.x() * c.y() / 3;
+      yy += a * c.y() * c.y() / 3;
+    }
+  }
+  BOOST_TEST(std::abs(x / area) <= 1e-14);
+  BOOST_TEST(std::abs(y / area) <= 1e-14);
+  BOOST_TEST(std::abs(xy) <= 1e-13 * (xx + yy));
+  BOOST_TEST(xx > 1.5 * yy);
+  for(Halfedge h : CGAL::halfedges_around_face(border_halfedge(m.sm), m.sm)) // not scaled
+    BOOST_TEST(std::abs(uv_length(m.sm, m.uv, opposite(h, m.sm))
+                        / std::sqrt(CGAL::squared_distance(m.sm.point(source(h, m.sm)), m.sm.point(target(h, m.sm)))) - 1) <= 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(unit_square)
+{
+  for(double factor : { 1., 1e-150, 1e150 })
+  {
+    Maps m(scaled(hill(8, .5), factor));
+    BOOST_TEST_REQUIRE(bool(m.flatten(params::layout_frame(CE::Layout_frame::UNIT_SQUARE))));
+    double low[2] = { 1, 1 }, high[2] = { 0, 0 };
+    for(Halfedge h : halfedges(m.sm))
+      for(int k = 0; k < 2; ++k)
+      {
+        low[k] = (std::min)(low[k], m.uv[h][k]);
+        high[k] = (std::max)(high[k], m.uv[h][k]);
+      }
+    BOOST_TEST((low[0] >= 0 && low[1] >= 0 && low[0] <= 1e-15 && low[1] <= 1e-15));
+    BOOST_TEST((high[0] <= 1 && high[1] <= 1 && (std::max)(high[0], high[1]) >= 1 - 1e-14));
+    const checking::Verdict verdict = judge(m.sm, m.uv);
+    BOOST_TEST(verdict.is_good(), verdict);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(pinned_frame)
+{
+  Maps m(hill(8, .5));
+  const std::vector<Vertex> border = border_vertices(m.sm);
+  const Vertex first = border[3], second = border[17];
+  const std::array<double, 2> p{{.1, -7}}, q{{12.3, 1. / 3}};
+  BOOST_TEST_REQUIRE(bool(m.flatten(params::layout_frame(CE::Pinned_frame<Vertex>{first, p, second, q}))));
+  for(Halfedge h : halfedges(m.sm))
+  {
+    if(target(h, m.sm) == first)
+      BOOST_TEST((m.uv[h] == Point_2(p[0], p[1])));
+    if(target(h, m.sm) == second)
+      BOOST_TEST((m.uv[h] == Point_2(q[0], q[1])));
+  }
+  const checking::Verdict verdict = judge(m.sm, m.uv);
+  BOOST_TEST(verdict.is_good(), verdict);
+}
+
+// --- layouts of what is cut ---------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(layout_of_an_annulus_cut_open)
+{
+  const Index m = 4, n = 24;
+  const auto t = triangulation(annulus(m, n, .4));
+  const auto metric = CE::compute_conformal_metric(t, CE::Conformal_conditions<double>(t));
+  BOOST_TEST_REQUIRE(bool(metric));
+
+  CE::Cut_graph cut;
+  cut.is_cut.assign(t.number_of_edges(), 0);
+  for(Index e = 0; e < t.number_of_edges(); ++e)
+  {
+    const Index i = t.origin(t.edge_halfedge(e)), j = t.target(t.edge_halfedge(e));
+    if(i % n == 0 && j % n == 0)
+      cut.is_cut[e] = 1;
+  }
+  const CE::Layout<double> layout = CE::compute_layout(t, metric, cut);
+  BOOST_TEST((layout.status == Status::OK));
+  BOOST_TEST(layout.length_error <= 1e-14);
+  BOOST_TEST_REQUIRE(layout.transitions.size() == m);
+  for(const auto& motion : layout.transitions)
+  {
+    const auto& r = motion.rotation;
+    BOOST_TEST(std::abs(std::hypot(r[0], r[1]) - 1) <= 1e-15);
+    BOOST_TEST((t.twin(motion.halfedge) > motion.halfedge));
+    const auto image = [&](const std::array<double, 2>& z)
+    {
+      return std::array<double, 2>{{r[0] * z[0] - r[1] * z[1] + motion.translation[0],
+                                    r[1] * z[0] + r[0] * z[1] + motion.translation[1]}};
+    };
+    const Index h = motion.halfedge, g = t.twin(h);
+    const auto p = image(layout.corner[h]), q = image(layout.corner[t.previous(h)]);
+    for(int k = 0; k < 2; ++k)
+    {
+      BOOST_TEST(std::abs(p[k] - layout.corner[t.previous(g)][k]) <= 1e-13);
+      BOOST_TEST(std::abs(q[k] - layout.corner[g][k]) <= 1e-13);
+      BOOST_TEST(std::abs(r[k] - layout.transitions[0].rotation[k]) <= 1e-12); // one motion for the whole cut
+      BOOST_TEST(std::abs(motion.translation[k] - layout.transitions[0].translation[k]) <= 1e-12);
+    }
+  }
+
+  // an annulus that is not cut does not close, and what is cut in two is not connected
+  BOOST_TEST(CE::compute_layout(t, metric, CE::Cut_graph()).length_error > 1e-3);
+  std::fill(cut.is_cut.begin(), cut.is_cut.end(), 1);
+  BOOST_TEST((CE::compute_layout(t, metric, cut).status == Status::WRONG_TOPOLOGY));
+}
+
+// --- meshes and kernels -------------------------------------------------------------------------
+
+namespace {
+
+template <typename K>
+void check_kernel(double tolerance)
+{
+  typedef CGAL::Surface_mesh<typename K::Point_3> Other_mesh;
+  typedef typename Other_mesh::Halfedge_index Other_halfedge;
+  Maps m(hill(6, .5));
+  BOOST_TEST_REQUIRE(bool(m.flatten()));
+  Other_mesh sm = surface_mesh<Other_mesh>(hill(6, .5));
+  auto uv = sm.template add_property_map<Other_halfedge, typename K::Point_2>("h:uv").first;
+  const auto report = CE::flatten(sm, uv);
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  for(Halfedge h : halfedges(m.sm))
+  {
+    const auto p = uv[Other_halfedge(h.idx())];
+    BOOST_TEST(std::abs(CGAL::to_double(p.x()) - m.uv[h].x()) <= tolerance);
+    BOOST_TEST(std::abs(CGAL::to_double(p.y()) - m.uv[h].y()) <= tolerance);
+  }
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(kernels)
+{
+  check_kernel<CGAL::Exact_predicates_inexact_constructions_kernel>(0);
+  check_kernel<CGAL::Exact_predicates_exact_constructions_kernel>(1e-14);
+  check_kernel<CGAL::Simple_cartesian<float> >(1e-4);
+}
+
+BOOST_AUTO_TEST_CASE(polyhedron)
+{
+  typedef CGAL::Polyhedron_3<Kernel> Polyhedron;
+  Maps m(hill(6, .5));
+  BOOST_TEST_REQUIRE(bool(m.flatten()));
+  Polyhedron p;
+  CGAL::copy_face_graph(m.sm, p);
+  auto uv = get(CGAL::dynamic_halfedge_property_t<Point_2>(), p);
+  const auto report = CE::flatten(p, uv);
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  const checking::Verdict verdict = judge(p, uv);
+  BOOST_TEST(verdict.is_good(), verdict);
+}
+
+BOOST_AUTO_TEST_CASE(selected_faces)
+{
+  Maps m(icosphere(2));
+  std::vector<Face> selection;
+  for(Face f : faces(m.sm))
+  {
+    const Halfedge h = halfedge(f, m.sm);
+    if(m.sm.point(source(h, m.sm)).z() + m.sm.point(target(h, m.sm)).z() + m.sm.point(target(next(h, m.sm), m.sm)).z() > 1)
+      selection.push_back(f);
+  }
+  const CGAL::Face_filtered_graph<Mesh> patch(m.sm, selection);
+  const auto report = CE::flatten(patch, m.uv, params::log_scale_factor_map(m.u));
+  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
+  BOOST_TEST(report.topology.number_of_faces == selection.size());
+  const checking::Verdict verdict = judge(patch, m.uv);
+  BOOST_TEST(verdict.is_good(), verdict);
+  for(Halfedge h : halfedges(m.sm))
+    if(is_border(h, patch))
+      BOOST_TEST((m.uv[h] == m.uv[prev(opposite(h, m.sm), m.sm)]));
+    else
+      BOOST_TEST(((m.uv[h] == Point_2(unwritten, unwritten)) == !patch.is_in_cc(face(h, m.sm))));
+  for(Vertex v : vertices(m.sm))
+    BOOST_TEST((m.u[v] == unwritten) == !patch.is_in_cc(v));
+}
+
+// --- the solver's parameters --------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(parameters_of_the_solver)
+{
+  Maps m(hill(8, .7)), other(hill(8, .7));
+  const Report natural = m.flatten();
+  BOOST_TEST_REQUIRE(bool(natural));
+  const auto is_same = [&](double tolerance)
+  {
+    for(Vertex v : vertices(m.sm))
+      BOOST_TEST(std::abs(m.u[v] - other.u[v]) <= tolerance);
+  };
+  BOOST_TEST(bool(other.flatten(params::newton_strategy(CE::Newton_strategy::TRUST_REGION))));
+  is_same(1e-12);
+
+  const auto start = other.sm.add_property_map<Vertex, double>("v:start", 0).first;
+  const std::vector<double> numbers = random_numbers(num_vertices(m.sm), .2, 9);
+  for(Vertex v : vertices(other.sm))
+    start[v] = numbers[v];
+  BOOST_TEST(bool(other.flatten(params::initial_log_scale_factor_map(start))));
+  is_same(1e-12);
+  const Report again = other.flatten(params::initial_log_scale_factor_map(m.u));
+  BOOST_TEST(bool(again));
+  BOOST_TEST(again.statistics.number_of_iterations == 0u);
+
+  Maps poor(hill(8, .7));
+  const Report few = poor.flatten(params::gradient_tolerance(1e-12).number_of_iterations(1));
+  BOOST_TEST((few.status == Status::ITERATIONS_EXHAUSTED));
+  BOOST_TEST(few.amount > 1e-12);
+  BOOST_TEST(few.statistics.number_of_iterations == 1u);
+  BOOST_TEST(poor.is_untouched());
+  const Report rounded = poor.flatten(params::gradient_tolerance(1e-60));
+  BOOST_TEST((rounded.status == Status::CONVERGED_TO_ROUNDING), CE::message(rounded));
+  BOOST_TEST(rounded.amount > 0);
+  BOOST_TEST(rounded.amount < 1e-15);
+  BOOST_TEST(!poor.is_untouched());
+}
+
+namespace {
+
+struct Counting_visitor
+{
+  std::vector<CE::Stage> stages;
+  std::vector<double> residuals;
+  std::size_t patience = 1000;
+
+  void on_stage(CE::Stage stage) { stages.push_back(stage); }
+  void on_iteration(std::size_t iteration, double residual)
+  {
+    BOOST_TEST(iteration == residuals.size());
+    residuals.push_back(residual);
+  }
+  bool go_further() { return residuals.size() < patience; }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(visitors)
+{
+  Maps m(hill(8, .7));
+  Counting_visitor visitor;
+  visitor.patience = 2;
+  const Report stopped = m.flatten(params::gradient_tolerance(1e-12).visitor(std::ref(visitor)));
+  BOOST_TEST((stopped.status == Status::STOPPED_BY_VISITOR));
+  BOOST_TEST(visitor.residuals.size() == 2u);
+  BOOST_TEST(stopped.statistics.number_of_iterations == 1u);
+  BOOST_TEST(m.is_untouched());
+
+  Counting_visitor impatient;
+  impatient.patience = 0;
+  BOOST_TEST((m.flatten(params::gradient_tolerance(1e-12).visitor(impatient)).status == Status::STOPPED_BY_VISITOR));
+  BOOST_TEST(impatient.stages.empty()); // given by value: the copy has seen them
+  BOOST_TEST(m.is_untouched());
+
+  Counting_visitor patient;
+  const Report report = m.flatten(params::gradient_tolerance(1e-12).visitor(std::ref(patient)));
+  BOOST_TEST_REQUIRE(bool(report));
+  BOOST_TEST((patient.stages == std::vector<CE::Stage>{ CE::Stage::IMPORT, CE::Stage::SOLVE, CE::Stage::LAYOUT, CE::Stage::VERIFY }));
+  BOOST_TEST(patient.residuals.size() == report.statistics.number_of_iterations + 1);
+  BOOST_TEST(patient.residuals.back() <= 1e-12);
+}
+
+// --- bad input ----------------------------------------------------------------------------------
+
+namespace {
+
+struct Refusal : Report // which may be discarded
+{
+  explicit Refusal(const Report& report) : Report(report) {}
+};
+
+template <typename NamedParameters = decltype(params::gradient_tolerance(1e-12))>
+Refusal check_refused(Maps& m, Status status, const NamedParameters& np = params::gradient_tolerance(1e-12))
+{
+  Report copy;
+  const Report report = m.flatten(CE::combine_named_parameters(np, params::flattening_report(std::ref(copy))));
+  BOOST_TEST((report.status == status), CE::message(report) << ", expected: " << CE::message(status));
+  BOOST_TEST((copy.status == status));
+  BOOST_TEST(m.is_untouched());
+  BOOST_TEST(CE::message(report).find(CE::message(status)) == 0u);
+  return Refusal(report);
+}
+
+Refusal check_refused(const Soup& soup, Status status)
+{
+  Maps m(soup);
+  return check_refused(m, status);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(meshes_that_are_no_disks)
+{
+  check_refused(Soup(), Status::EMPTY_MESH);
+  check_refused(Soup{{{{0, 0, 0}}, {{1, 0, 0}}}, {}}, Status::EMPTY_MESH);
+
+  Mesh quad;
+  std::vector<Vertex> corners;
+  for(const Point_3& p : { Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(1, 1, 0), Point_3(0, 1, 0) })
+    corners.push_back(quad.add_vertex(p));
+  quad.add_face(corners);
+  Maps m(quad);
+  BOOST_TEST((check_refused(m, Status::NOT_TRIANGULATED).face_indices == std::vector<std::size_t>(1, 0)));
+
+  const Report sphere = check_refused(icosphere(1), Status::WRONG_TOPOLOGY);
+  BOOST_TEST(sphere.topology.number_of_borders == 0u);
+  const Report ring = check_refused(torus(5, 4), Status::WRONG_TOPOLOGY);
+  BOOST_TEST(ring.topology.genus == 1u);
+  const Report two = check_refused(together({flat_grid(2), flat_grid(2)}), Status::WRONG_TOPOLOGY);
+  BOOST_TEST(two.topology.number_of_components == 2u);
+
+  const Soup bow_tie{{{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{-1, 0, 0}}, {{-1, -1, 0}}}, {{{0, 1, 2}}, {{0, 3, 4}}}};
+  BOOST_TEST((check_refused(bow_tie, Status::NON_MANIFOLD).vertex_indices == std::vector<std::size_t>(1, 0)));
+}
+
+BOOST_AUTO_TEST_CASE(numbers_that_are_no_lengths)
+{
+  for(double bad : { not_a_number, infinity, -infinity })
+  {
+    Soup soup = hill(3, .3);
+    soup.points[5][1] = bad;
+    BOOST_TEST((check_refused(soup, Status::INVALID_NUMBER).vertex_indices == std::vector<std::size_t>(1, 5)));
+  }
+  // finite, but too far apart
+  BOOST_TEST(check_refused(one_triangle({{-1.7e308, 0, 0}}, {{1.7e308, 0, 0}}, {{0, 1, 0}}), Status::INVALID_NUMBER).edges.size() == 1u);
+
+  Soup soup = hill(3, .3);
+  soup.points[6] = soup.points[5];
+  const Report zero = check_refused(soup, Status::ZERO_LENGTH_EDGE);
+  BOOST_TEST_REQUIRE(zero.edge_indices.size() == 1u);
+  BOOST_TEST((set_of(zero.edge_indices[0]) == std::set<std::size_t>{ 5, 6 }));
+
+  for(double bad : { not_a_number, infinity, -1. })
+  {
+    Maps m(hill(3, .3));
+    const auto length = m.sm.add_property_map<Edge, double>("e:length", 1.).first;
+    length[Edge(4)] = bad;
+    const Report report = check_refused(m, Status::INVALID_NUMBER, params::edge_length_map(length));
+    BOOST_TEST((report.edges == std::vector<Edge>(1, Edge(4))));
+    length[Edge(4)] = 0;
+    BOOST_TEST((check_refused(m, Status::ZERO_LENGTH_EDGE, params::edge_length_map(length)).edges == std::vector<Edge>(1, Edge(4))));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(conditions_that_cannot_be_met)
+{
+  Maps m(hill(4, .3));
+  const auto cone_angle = m.sm.add_property_map<Vertex, double>("v:cone_angle", 2 * CGAL_PI).first;
+  const Vertex inner(12);
+  BOOST_TEST_REQUIRE(!CGAL::is_border(inner, m.sm));
+  const Vertex corner(4); // with one triangle
+  BOOST_TEST_REQUIRE(degree(corner, m.sm) == 2u);
+
+  // 2 pi is no cone
+  Maps flat(hill(4, .3));
+  const auto no_cone = flat.sm.add_property_map<Vertex, double>("v:cone_angle", 2 * CGAL_PI).first;
+  BOOST_TEST(bool(flat.flatten(params::cone_angle_map(no_cone))));
+  cone_angle[inner] = CGAL_PI;
+  const Report cone = check_refused(m, Status::NOT_AVAILABLE, params::cone_angle_map(cone_angle));
+  BOOST_TEST((cone.vertices == std::vector<Vertex>(1, inner)));
+  for(Vertex v : border_vertices(m.sm))
+    m.is_fixed[v] = true;
+  m.is_fixed[inner] = true;
+  const Report free_cone = check_refused(m, Status::NOT_AVAILABLE, params::prescribed_log_scale_factor_map(m.fixed_u)
+                                                                          .vertex_is_constrained_map(m.is_fixed));
+  BOOST_TEST((free_cone.vertices == std::vector<Vertex>(1, inner)));
+  m.is_fixed[inner] = false;
+
+  m.is_fixed[corner] = false;
+  const Report missing = check_refused(m, Status::MISSING_CONDITION, params::prescribed_log_scale_factor_map(m.fixed_u)
+                                                                            .vertex_is_constrained_map(m.is_fixed));
+  BOOST_TEST((missing.vertices == std::vector<Vertex>(1, corner)));
+
+  // the border as a whole turns too much, or too little
+  prescribe_circle(m);
+  const Vertex other = border_vertices(m.sm)[0] == corner ? border_vertices(m.sm)[1] : border_vertices(m.sm)[0];
+  const double good = m.angle[other];
+  for(double wrong : { -1e-3, 1e-3, 1e-8 })
+  {
+    m.angle[other] = good + wrong;
+    const Report report = check_refused(m, Status::GAUSS_BONNET_VIOLATED, params::border_angle_map(m.angle));
+    BOOST_TEST(std::abs(std::abs(report.amount) - std::abs(wrong)) <= 1e-12);
+  }
+  m.angle[other] = good;
+
+  const double at_corner = m.angle[corner];
+  for(double wrong : { 0., -1., CGAL_PI, 4. })
+  {
+    m.angle[corner] = wrong;
+    const Report report = check_refused(m, Status::ANGLE_OUT_OF_RANGE, params::border_angle_map(m.angle));
+    BOOST_TEST((report.vertices == std::vector<Vertex>(1, corner)));
+    BOOST_TEST(std::abs(report.amount - wrong) <= 1e-12);
+  }
+  for(double wrong : { not_a_number, infinity })
+  {
+    m.angle[corner] = wrong;
+    BOOST_TEST((check_refused(m, Status::INVALID_NUMBER, params::border_angle_map(m.angle)).vertices == std::vector<Vertex>(1, corner)));
+    m.fixed_u[corner] = wrong;
+    BOOST_TEST((check_refused(m, Status::INVALID_NUMBER, params::prescribed_log_scale_factor_map(m.fixed_u)).vertices
+                == std::vector<Vertex>(1, corner)));
+  }
+  m.angle[corner] = at_corner;
+  BOOST_TEST(bool(m.flatten(params::border_angle_map(m.angle)))); // and now it goes
+
+  // one vertex of fixed u has to take all the turning: pi - 2 pi is no angle
+  Maps straight(hill(4, .3));
+  for(Vertex v : border_vertices(straight.sm))
+    straight.angle[v] = degree(v, straight.sm) == 2 ? CGAL_PI / 2 : CGAL_PI;
+  straight.is_fixed[border_vertices(straight.sm)[0]] = true;
+  straight.is_fixed[corner] = false;
+  for(Vertex v : border_vertices(straight.sm))
+    if(degree(v, straight.sm) == 2 && straight.is_fixed[v])
+      straight.angle[v] = CGAL_PI;
+  check_refused(straight, Status::GAUSS_BONNET_VIOLATED, params::border_angle_map(straight.angle)
+                                                                .vertex_is_constrained_map(straight.is_fixed));
+}
+
+BOOST_AUTO_TEST_CASE(what_this_version_does_not_have)
+{
+  Maps m(hill(3, .3));
+  check_refused(m, Status::NOT_AVAILABLE, params::retriangulation(CE::Retriangulation::WHEN_NEEDED));
+  check_refused(m, Status::NOT_AVAILABLE, params::retriangulation(CE::Retriangulation::ALWAYS));
+  BOOST_TEST(bool(m.flatten(params::retriangulation(CE::Retriangulation::NEVER))));
+}
+
+// --- statuses -----------------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(every_status_has_a_text_and_an_error_code)
+{
+  namespace SMP = CGAL::Surface_mesh_parameterization;
+  const std::vector<Status> all = {
+    Status::OK, Status::CONVERGED_TO_ROUNDING, Status::EMPTY_MESH, Status::NOT_TRIANGULATED, Status::NON_MANIFOLD,
+    Status::INVALID_NUMBER, Status::ZERO_LENGTH_EDGE, Status::WRONG_TOPOLOGY, Status::GAUSS_BONNET_VIOLATED,
+    Status::ANGLE_OUT_OF_RANGE, Status::MISSING_CONDITION, Status::SINGULAR_PROBLEM, Status::ITERATIONS_EXHAUSTED,
+    Status::DEGENERATE_METRIC, Status::NOT_INJECTIVE, Status::STOPPED_BY_VISITOR, Status::OUT_OF_MEMORY,
+    Status::NOT_AVAILABLE };
+  BOOST_TEST(CE::internal::status_table().size() == all.size());
+  std::set<std::string> texts;
+  for(std::size_t i = 0; i < all.size(); ++i)
+  {
+    BOOST_TEST(static_cast<std::size_t>(all[i]) == i);
+    BOOST_TEST((CE::internal::status_table()[i].status == all[i]));
+    texts.insert(CE::message(all[i]));
+    BOOST_TEST(CE::is_success(all[i]) == (CE::to_error_code(all[i]) == SMP::OK));
+    Report report;
+    report.status = all[i];
+    BOOST_TEST(bool(report) == CE::is_success(all[i]));
+    BOOST_TEST(CE::message(report).find(CE::message(all[i])) == 0u);
+  }
+  BOOST_TEST(texts.size() == all.size());
+  BOOST_TEST(texts.count("") == 0u);
+  BOOST_TEST((CE::to_error_code(Status::EMPTY_MESH) == SMP::ERROR_EMPTY_MESH));
+  BOOST_TEST((CE::to_error_code(Status::NOT_TRIANGULATED) == SMP::ERROR_NON_TRIANGULAR_MESH));
+  BOOST_TEST((CE::to_error_code(Status::WRONG_TOPOLOGY) == SMP::ERROR_NO_TOPOLOGICAL_DISC));
+}
+
+BOOST_AUTO_TEST_CASE(messages_say_where)
+{
+  Report report;
+  report.status = Status::DEGENERATE_METRIC;
+  for(std::size_t f = 0; f < 12; ++f)
+    report.face_indices.push_back(100 + f);
+  const std::string text = CE::message(report);
+  BOOST_TEST(text.find("faces 100, 101") != std::string::npos, text);
+  BOOST_TEST(text.find("109, ... (12 in all)") != std::string::npos, text);
+  BOOST_TEST(text.find("110") == std::string::npos, text);
+  BOOST_TEST(text.find('\n') == std::string::npos);
+
+  report = Report();
+  report.status = Status::ZERO_LENGTH_EDGE;
+  report.edge_indices.push_back({{3, 8}});
+  BOOST_TEST(CE::message(report).find("edge 3-8") != std::string::npos);
+}

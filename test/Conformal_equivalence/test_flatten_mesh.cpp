@@ -1,0 +1,919 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The program flatten_mesh, run within this one, and the writers it uses. What it
+// writes is judged from the files, by a checker that shares no code with the package.
+
+#define BOOST_TEST_MODULE test_flatten_mesh
+#include "include/boost_test.h"
+#include "include/check_flattening.h"
+
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/flatten_mesh.h"
+
+#include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/parameterize.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+namespace CE = CGAL::Conformal_equivalence;
+namespace SMP = CGAL::Surface_mesh_parameterization;
+using flattening::Mesh;
+
+namespace {
+
+// --- running ------------------------------------------------------------------------------------
+
+// A folder of its own, gone at the end.
+struct Folder
+{
+  fs::path path;
+
+  Folder()
+  {
+    std::random_device random;
+    do
+      path = fs::temp_directory_path() / ("test_flatten_mesh_" + std::to_string(random()));
+    while(! fs::create_directory(path));
+  }
+  ~Folder()
+  {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+
+  std::string write(const std::string& name, const std::string& content) const
+  {
+    std::ofstream(path / name, std::ios::binary) << content;
+    return *this / name;
+  }
+
+  std::set<std::string> files() const
+  {
+    std::set<std::string> names;
+    for(const auto& entry : fs::directory_iterator(path))
+      names.insert(entry.path().filename().string());
+    return names;
+  }
+};
+
+struct Run
+{
+  int status;
+  std::string out, err;
+};
+
+Run run(const std::vector<std::string>& arguments)
+{
+  std::vector<const char*> argv(1, "flatten_mesh");
+  for(const std::string& a : arguments)
+    argv.push_back(a.c_str());
+  std::ostringstream out, err;
+  const int status = flatten_mesh(static_cast<int>(argv.size()), argv.data(), out, err);
+  return { status, out.str(), err.str() };
+}
+
+std::string content(const std::string& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// refused with this status and one line that holds `reason`
+void check_refused(const std::vector<std::string>& arguments, int status, const std::string& reason)
+{
+  const Run r = run(arguments);
+  BOOST_TEST_CONTEXT("expected: " << reason << "; said: " << r.err)
+  {
+    BOOST_TEST(r.status == status);
+    BOOST_TEST(contains(r.err, reason));
+    BOOST_TEST(std::count(r.err.begin(), r.err.end(), '\n') == 1);
+    BOOST_TEST(r.out.empty());
+  }
+}
+
+// --- meshes -------------------------------------------------------------------------------------
+
+typedef flattening::Triangle_soup Soup;
+
+// n by n squares, each of two triangles, over a bumpy height field
+Soup bumpy_grid(std::size_t n)
+{
+  Soup soup;
+  for(std::size_t j = 0; j <= n; ++j)
+    for(std::size_t i = 0; i <= n; ++i)
+    {
+      const double x = double(i) / double(n), y = double(j) / double(n);
+      soup.points.push_back({{ x, y, 0.25 * std::sin(4 * x + 1) * std::cos(5 * y) + 0.1 * x * y }});
+    }
+  const auto v = [n](std::size_t i, std::size_t j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
+  for(std::size_t j = 0; j < n; ++j)
+    for(std::size_t i = 0; i < n; ++i)
+    {
+      soup.triangles.push_back({{ v(i, j), v(i + 1, j), v(i + 1, j + 1) }});
+      soup.triangles.push_back({{ v(i, j), v(i + 1, j + 1), v(i, j + 1) }});
+    }
+  return soup;
+}
+
+std::string number(double x)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << x;
+  return out.str();
+}
+
+std::string point(const std::array<double, 3>& p) { return number(p[0]) + ' ' + number(p[1]) + ' ' + number(p[2]); }
+
+std::string as_off(const Soup& soup)
+{
+  std::ostringstream out;
+  out << "OFF # a comment\n\n" << soup.points.size() << ' ' << soup.triangles.size() << " 0\n";
+  for(const auto& p : soup.points)
+    out << point(p) << '\n';
+  for(const auto& t : soup.triangles)
+    out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  return out.str();
+}
+
+std::string as_obj(const Soup& soup)
+{
+  std::ostringstream out;
+  out << "# a comment\no grid\n";
+  for(const auto& p : soup.points)
+    out << "v " << point(p) << '\n';
+  out << "vt 0 0\nvn 0 0 1\n";
+  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+  {
+    const auto& t = soup.triangles[f];
+    if(f % 2 == 0)
+      out << "f " << t[0] + 1 << "/1/1 " << t[1] + 1 << "//1 " << t[2] + 1 << "/1\n";
+    else
+      for(std::size_t k = 0; k < 3; ++k)
+        out << (k == 0 ? "f " : " ") << static_cast<long>(t[k]) - static_cast<long>(soup.points.size()) << (k == 2 ? "\n" : "");
+  }
+  return out.str();
+}
+
+std::string as_text_ply(const Soup& soup)
+{
+  std::ostringstream out;
+  out << "ply\nformat ascii 1.0\ncomment a comment\nelement vertex " << soup.points.size()
+      << "\nproperty double x\nproperty double y\nproperty uchar red\nproperty double z\nelement face " << soup.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nproperty int label\nend_header\n";
+  for(const auto& p : soup.points)
+    out << number(p[0]) << ' ' << number(p[1]) << " 255 " << number(p[2]) << '\n';
+  for(const auto& t : soup.triangles)
+    out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << " 7\n";
+  return out.str();
+}
+
+template <typename T>
+void append_bytes(std::string& bytes, T value, bool reverse)
+{
+  char b[sizeof(T)];
+  std::memcpy(b, &value, sizeof(T));
+  if(reverse)
+    std::reverse(b, b + sizeof(T));
+  bytes.append(b, sizeof(T));
+}
+
+std::string as_binary_ply(const Soup& soup, bool big_endian)
+{
+  const bool reverse = big_endian != flattening::is_big_endian();
+  std::ostringstream head;
+  head << "ply\nformat binary_" << (big_endian ? "big" : "little") << "_endian 1.0\nelement vertex " << soup.points.size()
+       << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << soup.triangles.size()
+       << "\nproperty list uchar uint vertex_index\nend_header\n";
+  std::string bytes = head.str();
+  for(const auto& p : soup.points)
+    for(double x : p)
+      append_bytes(bytes, x, reverse);
+  for(const auto& t : soup.triangles)
+  {
+    append_bytes(bytes, std::uint8_t(3), reverse);
+    for(std::uint32_t i : t)
+      append_bytes(bytes, i, reverse);
+  }
+  return bytes;
+}
+
+std::string as_text_stl(const Soup& soup)
+{
+  std::ostringstream out;
+  out << "solid grid of facets\n";
+  for(const auto& t : soup.triangles)
+  {
+    out << "facet normal 0 0 1\nouter loop\n";
+    for(std::uint32_t i : t)
+      out << "vertex " << point(soup.points[i]) << '\n';
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid grid of facets\n";
+  return out.str();
+}
+
+std::string as_binary_stl(const Soup& soup)
+{
+  const bool reverse = flattening::is_big_endian();
+  std::string bytes("solid, but binary");
+  bytes.resize(80, ' ');
+  append_bytes(bytes, static_cast<std::uint32_t>(soup.triangles.size()), reverse);
+  for(const auto& t : soup.triangles)
+  {
+    for(int i = 0; i < 3; ++i)
+      append_bytes(bytes, 0.f, reverse);
+    for(std::uint32_t i : t)
+      for(double x : soup.points[i])
+        append_bytes(bytes, static_cast<float>(x), reverse);
+    append_bytes(bytes, std::uint16_t(0), reverse);
+  }
+  return bytes;
+}
+
+std::string off(const std::string& vertices, const std::string& faces)
+{
+  const auto lines = [](const std::string& s) { return std::count(s.begin(), s.end(), '\n'); };
+  return "OFF\n" + std::to_string(lines(vertices)) + ' ' + std::to_string(lines(faces)) + " 0\n" + vertices + faces;
+}
+
+checking::Verdict judge(const std::string& input, const std::string& output, bool border_keeps_its_lengths = true)
+{
+  checking::Tolerances tolerances;
+  tolerances.border_keeps_its_lengths = border_keeps_its_lengths;
+  const checking::Verdict verdict =
+    checking::check_flattening(checking::read_surface(input), checking::read_surface(output), tolerances);
+  BOOST_TEST_MESSAGE(verdict);
+  return verdict;
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+nlohmann::json json(const std::string& file) { return nlohmann::json::parse(content(file)); }
+#endif
+
+} // namespace
+
+// ------------------------------------------------------------------------------------------------
+// The checker itself: other maps are refused
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+template <typename Parameterizer>
+std::string write_map_of(Mesh mesh, Parameterizer parameterizer, const std::string& file)
+{
+  auto uv = mesh.add_property_map<flattening::Vertex, flattening::Kernel::Point_2>("v:uv").first;
+  const SMP::Error_code error = SMP::parameterize(mesh, parameterizer, flattening::border(mesh).front(), uv);
+  BOOST_TEST((error == SMP::OK));
+  auto corner_uv = mesh.add_property_map<flattening::Halfedge, flattening::Kernel::Point_2>("h:uv").first;
+  for(flattening::Halfedge h : mesh.halfedges())
+    corner_uv[h] = uv[mesh.target(h)];
+  BOOST_TEST(CE::IO::write_OBJ(file, mesh, corner_uv));
+  return file;
+}
+
+// moves one vertex of the layout by this part of an edge there
+std::string write_perturbed(const std::string& obj, double amount, const std::string& file)
+{
+  std::ifstream in(obj);
+  std::ofstream out(file);
+  out.precision(17);
+  std::size_t n = 0;
+  for(std::string line; std::getline(in, line); )
+  {
+    double u, v;
+    if(line.substr(0, 3) == "vt " && n++ == 40 && std::sscanf(line.c_str(), "vt %lf %lf", &u, &v) == 2)
+      out << "vt " << u + amount << ' ' << v << '\n';
+    else
+      out << line << '\n';
+  }
+  return file;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(checker_refuses_other_maps)
+{
+  const Folder folder;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(12)));
+  Mesh mesh;
+  flattening::read_mesh(input, mesh);
+  BOOST_TEST(! judge(input, write_map_of(mesh, SMP::LSCM_parameterizer_3<Mesh>(), folder / "lscm.obj")).is_good());
+  BOOST_TEST(! judge(input, write_map_of(mesh, SMP::ARAP_parameterizer_3<Mesh>(), folder / "arap.obj")).is_good());
+
+  BOOST_TEST(run({input, "-o", folder / "out.obj"}).status == 0);
+  BOOST_TEST(judge(input, folder / "out.obj").is_good());
+  BOOST_TEST(judge(input, write_perturbed(folder / "out.obj", 0, folder / "same.obj")).is_good());
+  BOOST_TEST(! judge(input, write_perturbed(folder / "out.obj", 1e-6 / 12, folder / "moved.obj")).is_good());
+}
+
+// ------------------------------------------------------------------------------------------------
+// Good input
+// ------------------------------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(natural_border_and_all_outputs)
+{
+  const Folder folder;
+  const Soup soup = bumpy_grid(15);
+  const std::string input = folder.write("grid.off", as_off(soup));
+  std::vector<std::string> arguments = {input, "-o", folder / "o.obj", "--svg", folder / "o.svg", "--html", folder / "o.html"};
+  std::set<std::string> expected = {"grid.off", "o.obj", "o.mtl", "o.checker.png", "o.svg", "o.html"};
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  arguments.insert(arguments.end(), {"--report", folder / "o.json"});
+  expected.insert("o.json");
+#endif
+  const Run r = run(arguments);
+  BOOST_TEST_CONTEXT(r.err)
+  BOOST_REQUIRE(r.status == 0);
+  BOOST_TEST(r.err.empty());
+  BOOST_TEST(contains(r.out, "flipped triangles       0 (exact)"));
+  BOOST_TEST(folder.files() == expected, boost::test_tools::per_element());
+  BOOST_TEST(judge(input, folder / "o.obj").is_good());
+
+  const std::string obj = content(folder / "o.obj");
+  BOOST_TEST(obj.substr(0, 13) == "mtllib o.mtl\n");
+  BOOST_TEST(contains(content(folder / "o.mtl"), "o.checker.png"));
+  BOOST_TEST(content(folder / "o.checker.png").substr(1, 3) == "PNG");
+  BOOST_TEST(contains(content(folder / "o.svg"), "</svg>"));
+  BOOST_TEST(contains(content(folder / "o.html"), "</html>"));
+  BOOST_TEST(! contains(content(folder / "o.html"), "src="));
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const nlohmann::json report = json(folder / "o.json");
+  BOOST_TEST(report["status"] == "OK");
+  BOOST_TEST(report["vertices"] == soup.points.size());
+  BOOST_TEST(report["faces"] == soup.triangles.size());
+  BOOST_TEST(report["genus"] == 0);
+  BOOST_TEST(report["borders"] == 1);
+  BOOST_TEST(report["components"] == 1);
+  BOOST_TEST(report["retriangulation"]["mode"] == "never");
+  BOOST_TEST(report["residual"].get<double>() <= 1e-12);
+  BOOST_TEST(report["tolerance"].get<double>() == 1e-12);
+  BOOST_TEST(report["flipped_triangles"] == 0);
+  BOOST_TEST(report["injective"] == "yes");
+  BOOST_TEST(report["quasi_conformal"]["mean"].get<double>() >= 1);
+  BOOST_TEST(report["quasi_conformal"]["max"].get<double>() >= report["quasi_conformal"]["mean"].get<double>());
+  BOOST_TEST(report["u_min"].get<double>() <= 0); // 0 at the border
+  BOOST_TEST(report["u_max"].get<double>() >= 0);
+  BOOST_TEST(report["cones"].empty());
+  BOOST_TEST(report["seed"].is_null());
+  for(const char* name : {"newton_steps", "pcg_iterations", "factorizations", "residual_floor", "layout_length_error", "peak_memory_bytes"})
+    BOOST_TEST(report[name].is_number());
+  for(const char* name : {"import", "solve", "cut", "layout", "verify", "write"})
+    BOOST_TEST(report["seconds"][name].is_number());
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(quiet_help_version)
+{
+  const Folder folder;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
+  const Run quiet = run({input, "--quiet"});
+  BOOST_TEST(quiet.status == 0);
+  BOOST_TEST(quiet.out.empty());
+  BOOST_TEST(quiet.err.empty());
+  BOOST_TEST(run({input}).out.size() > 100u);
+  BOOST_TEST(contains(run({"--help"}).out, "--boundary"));
+  BOOST_TEST(contains(run({"--version"}).out, CGAL_CONFORMAL_EQUIVALENCE_VERSION));
+  BOOST_TEST(folder.files().size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(every_format_gives_the_same)
+{
+  const Folder folder;
+  const Soup soup = bumpy_grid(5);
+  const std::vector<std::string> inputs = {
+    folder.write("a.off", as_off(soup)), folder.write("b.obj", as_obj(soup)), folder.write("c.ply", as_text_ply(soup)),
+    folder.write("d.ply", as_binary_ply(soup, false)), folder.write("e.PLY", as_binary_ply(soup, true)) };
+  std::string first;
+  for(const std::string& input : inputs)
+  {
+    const Run r = run({input, "-o", folder / "o.obj", "--quiet"});
+    BOOST_TEST_CONTEXT(input << ": " << r.err)
+    BOOST_TEST(r.status == 0);
+    const std::string obj = content(folder / "o.obj");
+    if(first.empty())
+      first = obj;
+    BOOST_TEST((obj == first));
+  }
+  for(const std::string& input : {folder.write("f.stl", as_text_stl(soup)), folder.write("g.stl", as_binary_stl(soup))})
+  {
+    const Run r = run({input, "-o", folder / "o.obj"});
+    BOOST_TEST_CONTEXT(input << ": " << r.err)
+    BOOST_TEST(r.status == 0);
+    BOOST_TEST(contains(r.out, "36 vertices, 50 triangles"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(projective_weights)
+{
+  const Folder folder;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(12)));
+  BOOST_TEST(run({input, "-o", folder / "o.obj", "--projective"}).status == 0);
+  const checking::Surface output = checking::read_surface(folder / "o.obj");
+  BOOST_TEST(output.has_weights);
+  BOOST_TEST(judge(input, folder / "o.obj").is_good()); // the weights, too
+  double largest = 0;
+  for(const auto& t : output.texture)
+    largest = (std::max)(largest, t[2]);
+  BOOST_TEST(largest == 1);
+}
+
+BOOST_AUTO_TEST_CASE(prescribed_scale_and_angles)
+{
+  const Folder folder;
+  const std::size_t n = 10;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(n)));
+
+  const std::string scale = folder.write("u.txt", "# u at two border vertices\n0 0.3\n\n5 -0.2 # here\n");
+  BOOST_TEST(run({input, "-o", folder / "u.obj", "--projective", "--boundary", "scale=" + scale}).status == 0);
+  BOOST_TEST(judge(input, folder / "u.obj", false).is_good());
+  BOOST_TEST(! judge(input, folder / "u.obj", true).is_good());
+  const checking::Surface with_u = checking::read_surface(folder / "u.obj");
+  const auto weight = [&](std::size_t v) { return with_u.texture[v][2]; }; // one texture vertex for each vertex
+  BOOST_TEST(std::log(weight(1) / weight(0)) == 0.3, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(std::log(weight(1) / weight(5)) == -0.2, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(weight(1) == weight(n));
+
+  // the angle sum at the middle of the lower side
+  const std::string angles = folder.write("angles.txt", "5 150\n");
+  BOOST_TEST(run({input, "-o", folder / "a.obj", "--boundary", "angles=" + angles, "--boundary",
+                  "scale=" + folder.write("v.txt", "4 .1\n")}).status == 0);
+  BOOST_TEST(judge(input, folder / "a.obj", false).is_good());
+  const checking::Surface with_angle = checking::read_surface(folder / "a.obj");
+  const auto& p = with_angle.texture;
+  const double turn = std::atan2(p[4][1] - p[5][1], p[4][0] - p[5][0]) - std::atan2(p[6][1] - p[5][1], p[6][0] - p[5][0]);
+  BOOST_TEST(std::remainder(turn - 150 * CGAL_PI / 180, 2 * CGAL_PI) == 0, boost::test_tools::tolerance(1e-10));
+}
+
+namespace {
+
+// How far the border turns at each vertex from a straight line or from a right angle.
+void check_rectangle(const checking::Surface& s, const std::vector<std::size_t>& border)
+{
+  std::size_t corners = 0;
+  for(std::size_t i = 0; i < border.size(); ++i)
+  {
+    const auto& p = s.texture[border[i]];
+    const auto& q = s.texture[border[(i + 1) % border.size()]];
+    const auto& r = s.texture[border[(i + 2) % border.size()]];
+    const double turn = std::atan2((q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]),
+                                   (q[0] - p[0]) * (r[0] - q[0]) + (q[1] - p[1]) * (r[1] - q[1]));
+    const bool is_corner = turn > 0.7;
+    corners += is_corner;
+    BOOST_TEST(std::abs(turn - (is_corner ? CGAL_PI / 2 : 0)) < 1e-10);
+  }
+  BOOST_TEST(corners == 4u);
+}
+
+std::vector<std::size_t> border_of_grid(std::size_t n)
+{
+  std::vector<std::size_t> border;
+  const auto v = [n](std::size_t i, std::size_t j) { return j * (n + 1) + i; };
+  for(std::size_t i = 0; i < n; ++i) border.push_back(v(i, 0));
+  for(std::size_t i = 0; i < n; ++i) border.push_back(v(n, i));
+  for(std::size_t i = n; i > 0; --i) border.push_back(v(i, n));
+  for(std::size_t i = n; i > 0; --i) border.push_back(v(0, i));
+  return border;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(rectangle)
+{
+  const Folder folder;
+  const std::size_t n = 10;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(n)));
+  // The vertices 10 and 110 have one triangle each: they are corners whatever is chosen.
+  for(const std::string boundary : {"rectangle", "rectangle=0,10,120,110", "rectangle=10,110,3,117"})
+  {
+    const Run r = run({input, "-o", folder / "o.obj", "--boundary", boundary});
+    BOOST_TEST_CONTEXT(boundary << ": " << r.err)
+    {
+      BOOST_REQUIRE(r.status == 0);
+      BOOST_TEST(judge(input, folder / "o.obj", false).is_good());
+      check_rectangle(checking::read_surface(folder / "o.obj"), border_of_grid(n));
+    }
+  }
+  BOOST_TEST(run({input, "-o", folder / "o.obj", "--boundary", "rectangle", "--frame", "unit-square"}).status == 0);
+  for(const auto& t : checking::read_surface(folder / "o.obj").texture)
+    for(std::size_t k = 0; k < 2; ++k)
+      BOOST_TEST((t[k] >= 0 && t[k] <= 1));
+  check_refused({input, "--boundary", "rectangle=0,10,120,500"}, 1, "there is no vertex 500");
+  check_refused({input, "--boundary", "rectangle=0,10,120,60"}, 1, "vertex 60 is not on the border");
+  const std::string triangle = folder.write("triangle.off", off("0 0 0\n1 0 0\n0 1 0\n", "3 0 1 2\n"));
+  check_refused({triangle, "--boundary", "rectangle"}, 1, "needs at least 4 border vertices, there are 3");
+  BOOST_TEST(run({triangle, "-o", folder / "triangle.obj"}).status == 0);
+  BOOST_TEST(judge(triangle, folder / "triangle.obj").is_good());
+}
+
+BOOST_AUTO_TEST_CASE(isolated_vertices_are_carried_through)
+{
+  const Folder folder;
+  const std::string input = folder.write("a.off",
+    off("7 7 7\n0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n8 8 8\n.5 .5 .7\n", "3 1 2 6\n3 2 3 6\n3 3 4 6\n3 4 1 6\n"));
+  const Run r = run({input, "-o", folder / "o.obj"});
+  BOOST_TEST(r.status == 0);
+  BOOST_TEST(contains(r.out, "isolated vertices       2, carried through"));
+  BOOST_TEST(judge(input, folder / "o.obj").is_good());
+  BOOST_TEST(contains(content(folder / "o.obj"), "v 8 8 8\n"));
+  BOOST_TEST(checking::read_surface(folder / "o.obj").texture.size() == 5u);
+}
+
+BOOST_AUTO_TEST_CASE(lion_head, * testing::needs_mesh("lion-head.off"))
+{
+  const Folder folder;
+  const std::string input = testing::mesh_path("lion-head.off");
+  BOOST_TEST(run({input, "-o", folder / "o.obj", "--projective"}).status == 0);
+  BOOST_TEST(judge(input, folder / "o.obj").is_good());
+}
+
+// ------------------------------------------------------------------------------------------------
+// Bad input: a message of its own, nothing left behind
+// ------------------------------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(wrong_usage)
+{
+  check_refused({}, 2, "no INPUT is given");
+  check_refused({"a.off", "b.off"}, 2, "only one INPUT");
+  check_refused({"a.off", "--frobnicate"}, 2, "--frobnicate");
+  check_refused({"a.off", "--repor", "x"}, 2, "--repor");
+  check_refused({"a.off", "-o"}, 2, "--output");
+  check_refused({"a.off", "-o", ""}, 2, "--output");
+  check_refused({"a.off", "--boundary", "square"}, 2, "unknown value 'square' of --boundary");
+  check_refused({"a.off", "--boundary", "natural=3"}, 2, "natural=3");
+  check_refused({"a.off", "--boundary", "rectangle=1,2,3"}, 2, "four different vertices");
+  check_refused({"a.off", "--boundary", "rectangle=1,2,3,3"}, 2, "four different vertices");
+  check_refused({"a.off", "--boundary", "rectangle=1,2,3,-4"}, 2, "four different vertices");
+  check_refused({"a.off", "--boundary", "angles"}, 2, "angles=FILE");
+  check_refused({"a.off", "--boundary", "rectangle", "--boundary", "scale=f"}, 2, "exclude each other");
+  check_refused({"a.off", "--boundary", "scale=e", "--boundary", "scale=f"}, 2, "twice");
+  check_refused({"a.off", "--tolerance", "zero"}, 2, "--tolerance");
+  check_refused({"a.off", "--tolerance", "0"}, 2, "--tolerance");
+  check_refused({"a.off", "--tolerance", "nan"}, 2, "--tolerance");
+  check_refused({"a.off", "--max-iterations", "-1"}, 2, "--max-iterations");
+  check_refused({"a.off", "--threads", "0"}, 2, "--threads");
+  check_refused({"a.off", "--solver", "abacus"}, 2, "simplicial");
+  check_refused({"a.off", "--precision", "quadruple"}, 2, "--precision");
+}
+
+BOOST_AUTO_TEST_CASE(not_in_this_version)
+{
+  const std::vector<std::vector<std::string> > options = {
+    {"--retriangulate", "when-needed"}, {"--retriangulate", "always"}, {"--local-repair"}, {"--cones", "file"}, {"--cones", "auto=3"},
+    {"--target", "sphere"}, {"--target", "disk"}, {"--boundary", "disk"}, {"--seamless"}, {"--quantize"}, {"--quantize=90"},
+    {"--precision", "200"}, {"--tiles", "4"}, {"--max-scale", "3"} };
+  for(std::vector<std::string> option : options)
+  {
+    option.insert(option.begin(), "a.off");
+    check_refused(option, 2, "not available in this version");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bad_files)
+{
+  const Folder folder;
+  const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n", two = "3 0 1 2\n3 0 2 3\n";
+  struct Case { const char* name; std::string content; const char* reason; };
+  const std::vector<Case> cases = {
+    {"a.off", "", "the file is empty"},
+    {"a.xyz", "OFF\n", "unknown extension '.xyz'"},
+    {"a.off", "OOF\n3 1 0\n", "line 1: an OFF file begins with 'OFF'"},
+    {"a.off", "OFF\n", "line 2: expected an integer, found the end of the file"},
+    {"a.off", "OFF\n3 one 0\n", "line 2: expected an integer, found 'one'"},
+    {"a.off", "OFF\n-3 1 0\n", "announces -3 vertices"},
+    {"a.off", "OFF\n3000000 1 0\n0 0 0\n", "cut off"},
+    {"a.off", "OFF\n99999999999999999999 1 0\n0 0 0\n", "line 2: expected an integer"},
+    {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n#0 1 0 .......\n", "cut off: it ends after 2 of 3 vertices"},
+    {"a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n#........", "cut off: it ends after 1 of 2 faces"},
+    {"a.off", off("0 0 0\n1 0\n0 1 0\n", "3 0 1 2\n"), "line 4: expected a number, found the end of the line"},
+    {"a.off", off("0 0 0\n1 x 0\n0 1 0\n", "3 0 1 2\n"), "line 4: expected a number, found 'x'"},
+    {"a.off", off("0 0 0\n1 nan 0\n0 1 0\n", "3 0 1 2\n"), "vertex 1 has the coordinate nan"},
+    {"a.off", off("0 0 0\n1 0 0\n0 1 -inf\n", "3 0 1 2\n"), "vertex 2 has the coordinate -inf"},
+    {"a.off", off("0 0 0\n1 0 0\n0 1e999 0\n", "3 0 1 2\n"), "vertex 2 has the coordinate inf"},
+    {"a.off", off(square, "3 0 1 2\n3 0 2 4\n"), "line 8: face 1 names the vertex 4, but there are 4 vertices"},
+    {"a.off", off(square, "3 0 1 2\n3 0 2 -1\n"), "face 1 names the vertex -1"},
+    {"a.off", off(square, "3 0 1 2\n3 0 2\n"), "line 8: expected an integer"},
+    {"a.off", off(square, "4 0 1 2 3\n"), "line 7: face 0 has 4 vertices; only triangle meshes"},
+    {"a.off", off(square, "3 0 1 2\n2 0 1\n"), "face 1 has 2 vertices"},
+    {"a.off", off(square, "3 0 1 2\n3 0 2 2\n"), "face 1 has the vertex 2 twice"},
+    {"a.off", off(square, ""), "there are no faces"},
+    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 1 0 3\n3 0 1 4\n"), "not a manifold: the edge 0-1 lies in 3 faces"},
+    {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 2 0 1\n"), "the faces 0 and 2 have opposite orientations at the edge 0-1"},
+    {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 1 0 3\n"), "opposite orientations at the edge"},
+    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 0 3 4\n"), "not a manifold: the faces at the vertex 0 form more than one fan"},
+    {"a.off", off("0 0 0\n1 0 0\n1 0 0\n0 1 0\n", two), "edge"},
+    {"a.off", off("0 0 0\n1 0 0\n0 1 0\n0 0 1\n", "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"), "the mesh is closed (genus 0)"},
+    {"a.off", off(square + "5 0 0\n6 0 0\n5 1 0\n", two + "3 4 5 6\n"), "2 components"},
+    {"a.off", off("0 0 0\n3 0 0\n0 3 0\n.5 .5 0\n1 .5 0\n.5 1 0\n", "3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n"), "2 borders and genus 0"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: face 0 names the vertex 4 (counted from 1)"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "line 4"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n", "face 0 names the vertex 0 (counted from 1)"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n", "line 5: face 0 has 4 vertices"},
+    {"a.obj", "v 0 0\nv 1 0 0\n", "line 1: expected a number, found the end of the line"},
+    {"a.obj", "hello\n", "there are no faces"},
+    {"a.stl", "hello", "neither text nor binary STL"},
+    {"a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n", "'endsolid' is missing"},
+    {"a.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n", "face 0 has 2 vertices"},
+    {"a.stl", "solid\nfacet\nvertex 0 0 0\nvertex nan 0 0\nvertex 0 1 0\nendfacet\nendsolid\n", "vertex 1 has the coordinate nan"},
+    {"a.ply", "play\n", "a PLY file begins with 'ply'"},
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "unknown line '' in the header"},
+    {"a.ply", "ply\nformat ternary 1.0\nend_header\n", "unknown PLY format"},
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nend_header\n", "no property 'z'"},
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty quad x\n", "unknown type 'quad'"} };
+  for(const Case& c : cases)
+  {
+    const std::string input = folder.write(c.name, c.content);
+    BOOST_TEST_CONTEXT(c.content)
+    check_refused({input, "-o", folder / "o.obj", "--svg", folder / "o.svg"}, 1, c.reason);
+    fs::remove(input);
+  }
+  check_refused({folder / "missing.off"}, 1, "cannot be opened");
+  fs::create_directory(folder.path / "folder.off");
+  check_refused({folder / "folder.off"}, 1, "is a directory");
+  BOOST_TEST(folder.files().size() == 1u);
+}
+
+// However a file is cut off or damaged, the program returns.
+BOOST_AUTO_TEST_CASE(damaged_files)
+{
+  const Folder folder;
+  const Soup soup = bumpy_grid(2);
+  const std::vector<std::pair<const char*, std::string> > files = {
+    {"a.off", as_off(soup)}, {"a.obj", as_obj(soup)}, {"a.ply", as_text_ply(soup)}, {"b.ply", as_binary_ply(soup, true)},
+    {"a.stl", as_text_stl(soup)}, {"b.stl", as_binary_stl(soup)} };
+  std::mt19937 random(1);
+  for(const auto& file : files)
+    for(std::size_t n = 0; n < file.second.size(); n += 3)
+    {
+      BOOST_TEST(run({folder.write(file.first, file.second.substr(0, n)), "--quiet"}).status != 2);
+      std::string damaged = file.second;
+      damaged[n] = static_cast<char>(random());
+      BOOST_TEST(run({folder.write(file.first, damaged), "--quiet"}).status != 2);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(bad_condition_files)
+{
+  const Folder folder;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
+  const auto check = [&](const char* kind, const std::string& text, const std::string& reason)
+    { check_refused({input, "-o", folder / "o.obj", "--boundary", kind + ("=" + folder.write("c.txt", text))}, 1, reason); };
+  check("angles", "0 90\nfive 90\n", "c.txt: line 2: expected an integer, found 'five'");
+  check("angles", "0\n1 90\n", "line 1: expected a number, found the end of the line");
+  check("angles", "0 90 90\n", "line 1: expected only a vertex and a number");
+  check("angles", "# border\n25 90\n", "line 2: there is no vertex 25");
+  check("angles", "-1 90\n", "there is no vertex -1");
+  check("angles", "6 90\n", "vertex 6 is not on the border");
+  check("angles", "0 90\n0 80\n", "line 2: vertex 0 has a condition already");
+  check("angles", "0 -90\n", "must be positive");
+  check("angles", "0 inf\n", "not a finite number");
+  check("scale", "0 nan\n", "not a finite number");
+  check_refused({input, "--boundary", "scale=" + (folder / "missing.txt")}, 1, "missing.txt: cannot be opened");
+  const std::string both = folder.write("c.txt", "0 90\n");
+  check_refused({input, "--boundary", "scale=" + both, "--boundary", "angles=" + both}, 1, "has a condition already");
+  // all border vertices have right angles: far from Gauss-Bonnet
+  std::string all;
+  for(std::size_t v : border_of_grid(4))
+    all += std::to_string(v) + " 90\n";
+  check("angles", all, "Gauss-Bonnet");
+  BOOST_TEST((folder.files() == std::set<std::string>{"grid.off", "c.txt"}));
+}
+
+// ------------------------------------------------------------------------------------------------
+// Outputs: all or none
+// ------------------------------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written)
+{
+  const Folder folder;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
+  check_refused({input, "-o", folder / "none/o.obj"}, 1, "cannot write");
+  check_refused({input, "-o", folder.path.string()}, 1, "it is a directory");
+  check_refused({input, "-o", input}, 2, "would overwrite the input");
+  check_refused({input, "-o", folder / "o.x", "--svg", folder / "o.x"}, 2, "two outputs have the same name");
+  if(fs::exists("/dev/full"))
+    check_refused({input, "-o", folder / "o.obj", "--svg", "/dev/full"}, 1, "cannot write /dev/full");
+  BOOST_TEST((folder.files() == std::set<std::string>{"grid.off"}));
+  BOOST_TEST(content(input) == as_off(bumpy_grid(4)));
+
+  // through a link, to the file itself
+  folder.write("target.svg", "old");
+  fs::create_symlink("target.svg", folder.path / "link.svg");
+  BOOST_TEST(run({input, "--svg", folder / "link.svg"}).status == 0);
+  BOOST_TEST(fs::is_symlink(folder.path / "link.svg"));
+  BOOST_TEST(contains(content(folder / "target.svg"), "</svg>"));
+}
+
+BOOST_AUTO_TEST_CASE(broken_triangles_are_named_and_nothing_is_written)
+{
+  // Five wide triangles around the vertex 7 have an angle sum of about 5 * 2 asin(0.95 / s) there when the scale
+  // of the edges to it is s. It must not exceed 2 pi, so s > 1.6; but the needles 5 and 6, with legs
+  // of lengths s and 10 s, are triangles only while 9 s is less than their bases, 9.6 and 9.9.
+  const Folder folder;
+  const std::string input = folder.write("fan.off",
+    off("1 0 0\n-.805 .593 0\n.995 .1 0\n-.805 .593 .05\n.99 .1 .05\n-.8 .58 .1\n4.5 8.5 2.7\n0 0 0\n",
+        "3 0 1 7\n3 1 2 7\n3 2 3 7\n3 3 4 7\n3 4 5 7\n3 5 6 7\n3 6 0 7\n"));
+  folder.write("o.obj", "what was there before");
+  const Run r = run({input, "-o", folder / "o.obj", "--svg", folder / "o.svg"});
+  BOOST_TEST_MESSAGE(r.err);
+  BOOST_TEST(r.status == 1);
+  BOOST_TEST(std::count(r.err.begin(), r.err.end(), '\n') == 1);
+  BOOST_TEST(contains(r.err, "faces 5, 6"));
+  BOOST_TEST((folder.files() == std::set<std::string>{"o.obj", "fan.off"}));
+  BOOST_TEST(content(folder / "o.obj") == "what was there before");
+}
+
+// ------------------------------------------------------------------------------------------------
+// The writers
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+// two triangles on a square, laid out apart
+struct Two_triangles
+{
+  Mesh mesh;
+  flattening::UV_map uv;
+
+  Two_triangles()
+  {
+    flattening::Triangle_soup soup;
+    soup.points = {{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}}, {{0.1, 1e-300, -1e300}}};
+    soup.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
+    flattening::check_soup(soup, "two");
+    flattening::build_mesh(soup, "two", mesh);
+    uv = mesh.add_property_map<flattening::Halfedge, flattening::Kernel::Point_2>("h:uv").first;
+    for(flattening::Halfedge h : mesh.halfedges())
+    {
+      const auto p = mesh.point(mesh.target(h));
+      const double shift = ! mesh.is_border(h) && mesh.face(h).idx() == 1 ? 3 : 0;
+      uv[h] = flattening::Kernel::Point_2(p.x() / 3 + shift, p.y());
+    }
+  }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(write_obj_at_a_seam)
+{
+  Two_triangles two;
+  std::ostringstream out;
+  out.precision(2); // is not looked at
+  BOOST_TEST(CE::IO::write_OBJ(out, two.mesh, two.uv));
+  std::istringstream in(out.str());
+  const checking::Surface s = checking::read_obj(in);
+  BOOST_TEST(s.points.size() == 5u);
+  BOOST_TEST(s.points[4][0] == 0.1);
+  BOOST_TEST(s.points[4][1] == 1e-300);
+  BOOST_TEST(s.points[4][2] == -1e300);
+  BOOST_TEST(s.texture.size() == 6u);
+  BOOST_TEST((s.faces == std::vector<std::array<std::size_t, 3> >{{{0, 1, 2}}, {{0, 2, 3}}}));
+  for(std::size_t f = 0; f < 2; ++f)
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      const auto& p = s.points[s.faces[f][k]];
+      BOOST_TEST(s.texture[s.corners[f][k]][0] == p[0] / 3 + (f == 1 ? 3 : 0));
+      BOOST_TEST(s.texture[s.corners[f][k]][1] == p[1]);
+    }
+
+  std::ofstream closed;
+  BOOST_TEST(! CE::IO::write_OBJ(closed, two.mesh, two.uv));
+  BOOST_TEST(! CE::IO::write_OBJ("/no such folder/o.obj", two.mesh, two.uv));
+}
+
+BOOST_AUTO_TEST_CASE(write_obj_with_other_points_and_weights)
+{
+  Two_triangles two;
+  auto points = two.mesh.add_property_map<flattening::Vertex, flattening::Kernel::Point_3>("v:other").first;
+  auto weights = two.mesh.add_property_map<flattening::Vertex, double>("v:w", 0.25).first;
+  weights[flattening::Vertex(0)] = 1;
+  points[flattening::Vertex(2)] = flattening::Kernel::Point_3(4, 5, 6);
+  std::ostringstream out;
+  CE::IO::OBJ_material material;
+  material.library = "m.mtl";
+  BOOST_TEST(CE::IO::write_OBJ(out, two.mesh, two.uv,
+                               CGAL::parameters::projective_weight_map(weights).vertex_point_map(points), material));
+  BOOST_TEST(contains(out.str(), "v 4 5 6\n"));
+  BOOST_TEST(contains(out.str(), "vt 0 0 1\n"));
+  BOOST_TEST(contains(out.str(), "vt 0.75 0 1\n") == false);
+  BOOST_TEST(contains(out.str(), "mtllib m.mtl\n"));
+  BOOST_TEST(contains(out.str(), "usemtl layout\n"));
+  std::istringstream in(out.str());
+  const checking::Surface s = checking::read_obj(in);
+  BOOST_TEST(s.has_weights);
+  BOOST_TEST(s.texture[s.corners[0][1]][0] == 1. / 3 * 0.25);
+}
+
+BOOST_AUTO_TEST_CASE(draw_layouts)
+{
+  Two_triangles two;
+  auto value = two.mesh.add_property_map<flattening::Face, double>("f:value", 0.).first;
+  value[flattening::Face(1)] = 7.5;
+  const auto svg = [&](const CE::IO::SVG_options& options)
+  {
+    std::ostringstream out;
+    BOOST_TEST(CE::IO::write_SVG(out, two.mesh, two.uv, value, options));
+    return out.str();
+  };
+  CE::IO::SVG_options options;
+  options.legend = "a < b & c";
+  const std::string drawing = svg(options);
+  BOOST_TEST(contains(drawing, "a &lt; b &amp; c"));
+  BOOST_TEST(contains(drawing, ">7.5<"));
+  BOOST_TEST(contains(drawing, ">0<"));
+  BOOST_TEST(contains(drawing, "url(#checkerboard)"));
+  const auto outline = drawing.substr(drawing.find("id=\"outline\""));
+  const std::string path = outline.substr(0, outline.find("/>"));
+  BOOST_TEST(std::count(path.begin(), path.end(), 'M') == 2); // two pieces, each closed
+  BOOST_TEST(std::count(path.begin(), path.end(), 'z') == 2);
+
+  options.checkerboard = false;
+  BOOST_TEST(! contains(svg(options), "pattern"));
+  options.maximum_number_of_drawn_faces = 1;
+  BOOST_TEST(contains(svg(options), "data:image/png;base64,"));
+
+  // numbers of any kind: no crash, no "nan" in the drawing
+  value[flattening::Face(0)] = std::numeric_limits<double>::quiet_NaN();
+  two.uv[two.mesh.halfedge(flattening::Face(0))] = flattening::Kernel::Point_2(HUGE_VAL, 0);
+  for(std::size_t drawn : {0, 10})
+  {
+    options.maximum_number_of_drawn_faces = drawn;
+    BOOST_TEST(! contains(svg(options), "nan"));
+    BOOST_TEST(! contains(svg(options), "inf"));
+  }
+  for(flattening::Halfedge h : two.mesh.halfedges())
+    two.uv[h] = flattening::Kernel::Point_2(1e300, -1e-300); // all in one point
+  BOOST_TEST(! contains(svg(options), "nan"));
+}
+
+BOOST_AUTO_TEST_CASE(write_page)
+{
+  Two_triangles two;
+  auto value = two.mesh.add_property_map<flattening::Face, double>("f:value", 1.).first;
+  auto weights = two.mesh.add_property_map<flattening::Vertex, double>("v:w", 1.).first;
+  CE::IO::HTML_options options;
+  options.title = "<script>";
+  options.figures = {{"a", "<b>"}};
+  for(bool with_weights : {false, true})
+  {
+    std::ostringstream out;
+    BOOST_TEST((with_weights ? CE::IO::write_HTML(out, two.mesh, two.uv, value, options, CGAL::parameters::projective_weight_map(weights))
+                             : CE::IO::write_HTML(out, two.mesh, two.uv, value, options)));
+    const std::string page = out.str();
+    BOOST_TEST(contains(page, "<title>&lt;script&gt;</title>"));
+    BOOST_TEST(contains(page, "<td>a</td><td>&lt;b&gt;</td>"));
+    // six corners of three floats are 72 bytes, 96 digits; six indices of four bytes are 24 bytes, 32 digits
+    const auto digits = [&](const std::string& name)
+    {
+      const std::size_t begin = page.find(name + " = bytes(\"") + name.size() + 10;
+      return page.find('"', begin) - begin;
+    };
+    BOOST_TEST(digits("points") == 96u);
+    BOOST_TEST(digits("texture") == 96u);
+    BOOST_TEST(digits("triangles") == 32u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(encodings)
+{
+  using namespace CE::internal;
+  const auto base64 = [](const std::string& s)
+  {
+    std::ostringstream out;
+    {
+      Text_buffer buffer(out);
+      write_base64(buffer, reinterpret_cast<const unsigned char*>(s.data()), s.size());
+    }
+    return out.str();
+  };
+  BOOST_TEST(base64("") == ""); // the examples of RFC 4648, section 10
+  BOOST_TEST(base64("f") == "Zg==");
+  BOOST_TEST(base64("fo") == "Zm8=");
+  BOOST_TEST(base64("foo") == "Zm9v");
+  BOOST_TEST(base64("foobar") == "Zm9vYmFy");
+
+  const std::string check = "123456789";
+  BOOST_TEST(crc32(check.data(), check.data() + check.size()) == 0xcbf43926u);
+  BOOST_TEST(adler32("Wikipedia") == 0x11e60398u);
+  BOOST_TEST(round_number_below(0.7) == 0.5);
+  BOOST_TEST(round_number_below(29) == 20.);
+  BOOST_TEST(round_number_below(1) == 1.);
+  BOOST_TEST(round_number_below(0) == 1.);
+}
