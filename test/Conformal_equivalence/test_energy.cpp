@@ -306,6 +306,31 @@ BOOST_AUTO_TEST_CASE(gradient_and_hessian_are_the_derivatives)
   BOOST_CHECK(whole >= 8 && broken >= 8);
 }
 
+// Angle sums of many turns, of needles and of broken triangles, corner by corner in wide arithmetic.
+BOOST_AUTO_TEST_CASE(angle_sums_of_fans)
+{
+  for(const Index n : {3, 6, 200})
+    for(unsigned seed = 0; seed < 30; ++seed)
+    {
+      Triangulation t = testing::triangulation(testing::cone(n, 1));
+      testing::Random random(seed);
+      const double small = seed % 3 == 2 ? 1e-100 : 1;
+      for(Index e = 0; e < t.number_of_edges(); ++e)
+        t.set_length(e, t.is_border_edge(e) ? small * random(.1, seed % 3 == 1 ? 3 : 1.9) : random(1, 1.05));
+      std::vector<Real> exact(t.number_of_vertices(), Real(0));
+      for(Index h = 0; h < t.number_of_halfedges(); h += 3)
+      {
+        const auto triangle = angles_of<Real>({{t.halfedge_length(h), t.halfedge_length(h + 1), t.halfedge_length(h + 2)}});
+        for(Index k = 0; k < 3; ++k)
+          exact[t.apex(h + k)] += triangle.angle[k];
+      }
+      CEi::Conformal_energy<double> energy(t);
+      BOOST_REQUIRE(energy.evaluate(std::vector<double>(n + 1, 0.)));
+      for(Index v = 0; v <= n; ++v)
+        BOOST_CHECK_SMALL(double(Real(energy.angle_sums()[v] - exact[v])), 8 * eps * t.degree(v));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(energy_is_convex_and_does_not_see_the_scale)
 {
   std::size_t crossings = 0;

@@ -94,7 +94,6 @@ public:
   bool refactor(const Matrix& A, NT& D)
   {
     D = NT(1);
-    this->m_mat = &A.eigen_object();
     this->solver().factorize(A.eigen_object());
     return is_positive_definite();
   }
@@ -104,6 +103,15 @@ public:
   {
     return analyze_pattern(A) && refactor(A, D);
   }
+
+  /// solves \f$ A \times X = B \f$ for the matrix last factorized, which need not exist any more.
+  bool linear_solver(const Vector& B, Vector& X)
+  {
+    X = this->solver().solve(B);
+    return this->solver().info() == Eigen::Success;
+  }
+
+  using Base::linear_solver;
 
 private:
   bool is_positive_definite()

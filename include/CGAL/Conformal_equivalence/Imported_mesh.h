@@ -154,6 +154,9 @@ public:
     return result;
   }
 
+  /// the position in `faces(tm)` of the face with index `f`: `f` itself if all faces were imported.
+  Index position_of_face(Index f) const { return face_positions_[f]; }
+
   /// returns `true` iff there is an imported face on the left of `h`.
   bool is_imported(halfedge_descriptor h) const
   {
@@ -192,6 +195,15 @@ private:
         faulty_faces.push_back(Index(faces_.size()));
       faces_.push_back(f);
     }
+    face_positions_.resize(faces_.size());
+    Index position = 0;
+    for(face_descriptor f : CGAL::make_range(faces(*mesh_)))
+    {
+      const Index i = get(face_index_, f);
+      if(i != Intrinsic_triangulation<NT>::null_index)
+        face_positions_[i] = position;
+      ++position;
+    }
     if(faces_.empty())
       status = Status::EMPTY_MESH;
     else if(!faulty_faces.empty())
@@ -225,6 +237,7 @@ private:
   typename boost::property_map<TriangleMesh, Face_index_tag>::const_type face_index_;
   std::vector<vertex_descriptor> vertices_;
   std::vector<face_descriptor> faces_;
+  std::vector<Index> face_positions_;
 };
 
 namespace internal {
@@ -382,7 +395,7 @@ void name_elements(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vecto
   for(std::uint32_t f : faces)
   {
     report.faces.push_back(mesh.face(f));
-    report.face_indices.push_back(f);
+    report.face_indices.push_back(mesh.position_of_face(f));
   }
 }
 

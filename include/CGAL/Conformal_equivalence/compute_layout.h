@@ -179,7 +179,7 @@ private:
 
 // Rounds the positions and measures by how much lengths have changed.
 template <typename NT, typename Complex>
-void round_positions(const Conformal_metric<NT>& metric, const Wedges& wedges,
+void round_positions(const Conformal_metric<NT>& metric, const Cut_graph& cut, const Wedges& wedges,
                      const std::vector<Complex>& position, const NT& scale, Layout<NT>& layout)
 {
   using std::abs;
@@ -191,14 +191,21 @@ void round_positions(const Conformal_metric<NT>& metric, const Wedges& wedges,
     const Complex& z = position[wedges.of_corner[h]];
     layout.corner[h] = {{static_cast<NT>(z.re), static_cast<NT>(z.im)}};
   }
-  typedef typename Conformal_metric<NT>::Wide_number Wide;
-  for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
+
+  const auto measure = [&](std::uint32_t h, const NT& length)
   {
     const std::array<NT, 2> &p = layout.corner[t.previous(h)], &q = layout.corner[h];
-    const Wide dx = Wide(q[0]) - Wide(p[0]), dy = Wide(q[1]) - Wide(p[1]);
-    const Wide length = metric.wide_scaled_length(h) * scale;
-    const double error = static_cast<double>(sqrt(Wide(dx * dx + dy * dy)) / length - 1);
-    layout.length_error = (std::max)(layout.length_error, std::isfinite(error) ? abs(error) : 1);
+    const NT x = (q[0] - p[0]) / length, y = (q[1] - p[1]) / length;
+    const double error = static_cast<double>(abs(NT(sqrt(NT(x * x + y * y)) - 1)));
+    layout.length_error = (std::max)(layout.length_error, std::isfinite(error) ? error : 1);
+  };
+  for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
+  {
+    const std::uint32_t h = t.edge_halfedge(e);
+    const NT length = metric.scaled_length(h) * scale;
+    measure(h, length);
+    if(cut[e] && !t.is_border(h))
+      measure(t.twin(h), length);
   }
 }
 
@@ -276,7 +283,7 @@ Layout<NT> compute_layout(const Intrinsic_triangulation<NT>& input,
   const NT scale = internal::move_to_frame(
     t, wedges.of_corner, choose_parameter(get_parameter(np, internal_np::conformal_layout_frame), Layout_frame::CANONICAL),
     development.position);
-  internal::round_positions(metric, wedges, development.position, scale, layout);
+  internal::round_positions(metric, cut, wedges, development.position, scale, layout);
   internal::find_transitions(t, cut, layout);
   return layout;
 }

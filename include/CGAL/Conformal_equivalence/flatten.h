@@ -113,8 +113,9 @@ private:
     }
     if(refuse_cones(conditions))
       return;
-    const auto own_np = combine_named_parameters(np, initial_guess(np));
-    metric = compute_conformal_metric(mesh.triangulation, conditions, own_np);
+    const auto own_np = Conformal_equivalence::combine_named_parameters(np, initial_guess(np));
+    metric = compute_conformal_metric(std::move(mesh.triangulation), conditions, own_np);
+    mesh.triangulation = metric.triangulation; // copied only now: the solver has freed its memory
 
     const Statistics::Seconds seconds = report.statistics.seconds;
     report.statistics = metric.statistics;
@@ -164,7 +165,7 @@ private:
   void lay_out(const NamedParameters& np)
   {
     layout = compute_layout(mesh.triangulation, metric, Cut_graph(),
-                            combine_named_parameters(np, parameters::layout_frame(frame(np))));
+                            Conformal_equivalence::combine_named_parameters(np, parameters::layout_frame(frame(np))));
     report.status = layout.status == Status::OK ? report.status : layout.status;
     report.layout_length_error = layout.length_error;
   }

@@ -100,9 +100,7 @@ public:
                           VertexParameterizedMap vpmap)
   {
     typedef typename boost::property_traits<VertexUVMap>::value_type Point_2;
-    std::vector<face_descriptor> component;
-    Polygon_mesh_processing::connected_component(face(opposite(bhd, tm), tm), tm, std::back_inserter(component));
-    Flattening flattening{Conformal_equivalence::Imported_mesh<Triangle_mesh>(tm, component)};
+    Flattening flattening{Conformal_equivalence::Imported_mesh<Triangle_mesh>(tm, component_of(bhd, tm))};
     flatten_(flattening);
     if(bool(flattening.report))
     {
@@ -119,6 +117,22 @@ public:
 
 private:
   typedef Conformal_equivalence::internal::Flattening<Triangle_mesh> Flattening;
+
+  // The faces of the component of bhd, in the order of faces(tm).
+  static std::vector<face_descriptor> component_of(halfedge_descriptor bhd, const Triangle_mesh& tm)
+  {
+    std::vector<face_descriptor> found, component;
+    Polygon_mesh_processing::connected_component(face(opposite(bhd, tm), tm), tm, std::back_inserter(found));
+    auto is_found = get(CGAL::dynamic_face_property_t<bool>(), tm);
+    for(face_descriptor f : CGAL::make_range(faces(tm)))
+      put(is_found, f, false);
+    for(face_descriptor f : found)
+      put(is_found, f, true);
+    for(face_descriptor f : CGAL::make_range(faces(tm)))
+      if(get(is_found, f))
+        component.push_back(f);
+    return component;
+  }
 
   // the maps of the named parameters, whose types the class does not know
   std::function<void(Flattening&)> flatten_;

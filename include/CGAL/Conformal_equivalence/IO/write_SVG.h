@@ -16,6 +16,7 @@
 #include <CGAL/Conformal_equivalence/internal/PNG.h>
 #include <CGAL/Conformal_equivalence/internal/Text_buffer.h>
 
+#include <CGAL/boost/graph/properties.h>
 #include <CGAL/property_map.h>
 
 #include <algorithm>

@@ -239,12 +239,12 @@ public:
     typename SolverTraits::NT denominator;
     if constexpr(Has_pattern_analysis<SolverTraits>::value)
     {
-      matrix_ = std::make_unique<Matrix>(typename Matrix::EigenType());
-      matrix_->eigen_object().swap(lower);
-      if(!is_analyzed_ && !traits_.analyze_pattern(*matrix_))
+      Matrix matrix{typename Matrix::EigenType()};
+      matrix.eigen_object().swap(lower);
+      if(!is_analyzed_ && !traits_.analyze_pattern(matrix))
         return false;
       is_analyzed_ = true;
-      return traits_.refactor(*matrix_, denominator);
+      return traits_.refactor(matrix, denominator);
     }
     else
     {
@@ -278,7 +278,7 @@ public:
 
 private:
   SolverTraits traits_;
-  std::unique_ptr<Matrix> matrix_;
+  std::unique_ptr<Matrix> matrix_; // such traits may refer to it
   bool is_analyzed_ = false;
 };
 

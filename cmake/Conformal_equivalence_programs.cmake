@@ -1,0 +1,160 @@
+# Copyright (c) 2026  The Conformal_equivalence developers.
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Brings in the folders test/, examples/ and benchmark/, gives their programs
+# include directory, warnings and optional libraries, and runs them by CTest.
+
+add_compile_options(-Wall -Wextra -Wpedantic)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # wrong, and about Boost.Multiprecision: from -O2 on g++ warns of inlined system headers too
+  add_compile_options(-Wno-maybe-uninitialized)
+endif()
+if(CONFORMAL_EQUIVALENCE_WARNINGS_AS_ERRORS)
+  add_compile_options(-Werror)
+endif()
+if(CONFORMAL_EQUIVALENCE_SANITIZERS)
+  add_compile_options(-fsanitize=${CONFORMAL_EQUIVALENCE_SANITIZERS}
+                      -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${CONFORMAL_EQUIVALENCE_SANITIZERS})
+endif()
+
+link_libraries(Conformal_equivalence::Conformal_equivalence)
+foreach(_name CHOLMOD METIS TBB)
+  if(TARGET Conformal_equivalence::${_name}_support)
+    link_libraries(Conformal_equivalence::${_name}_support)
+  endif()
+endforeach()
+
+set(_folders)
+foreach(_kind test examples benchmark)
+  if((_kind STREQUAL "test" AND CONFORMAL_EQUIVALENCE_BUILD_TESTS)
+     OR (_kind STREQUAL "examples" AND CONFORMAL_EQUIVALENCE_BUILD_EXAMPLES)
+     OR (_kind STREQUAL "benchmark" AND CONFORMAL_EQUIVALENCE_BUILD_BENCHMARKS))
+    add_subdirectory(${_kind}/Conformal_equivalence)
+    list(APPEND _folders ${_kind})
+  endif()
+endforeach()
+
+# ------------------------------------------------- all headers together ----
+
+if("test" IN_LIST _folders)
+  # all_headers: every public header in two translation units of one program, which
+  # does not link if a function is not inline. all_headers_once: in one.
+  file(GLOB_RECURSE _headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/include"
+       "${PROJECT_SOURCE_DIR}/include/CGAL/*.h")
+  list(FILTER _headers EXCLUDE REGEX "/internal/")
+  list(SORT _headers)
+  list(TRANSFORM _headers REPLACE "(.+)" "#include <\\1>")
+  list(JOIN _headers "\n" _includes)
+  file(CONFIGURE OUTPUT generated/all_public_headers.h CONTENT "@_includes@\n" @ONLY)
+  file(CONFIGURE OUTPUT generated/all_headers_again.cpp
+       CONTENT "#include \"all_public_headers.h\"\n" @ONLY)
+
+  add_library(all_headers_object OBJECT test/Conformal_equivalence/all_headers.cpp)
+  target_include_directories(all_headers_object PRIVATE "${PROJECT_BINARY_DIR}/generated")
+  add_executable(all_headers_once $<TARGET_OBJECTS:all_headers_object>)
+  add_executable(all_headers $<TARGET_OBJECTS:all_headers_object>
+                 "${PROJECT_BINARY_DIR}/generated/all_headers_again.cpp")
+  target_include_directories(all_headers PRIVATE "${PROJECT_BINARY_DIR}/generated")
+endif()
+
+# ------------------------------------------------------------------- tests ----
+
+# Only now, so that what CGAL's macros register in the folders does not run.
+enable_testing()
+
+# conformal_equivalence_test(<name> <folder> <command>...)
+function(conformal_equivalence_test name folder)
+  add_test(NAME ${name} COMMAND ${ARGN})
+  set_tests_properties(${name} PROPERTIES
+    LABELS "${folder}"
+    ENVIRONMENT "CGAL_DATA_DIR=${CGAL_DATA_DIR};UBSAN_OPTIONS=print_stacktrace=1"
+    SKIP_RETURN_CODE 77
+    TIMEOUT 600)
+  if(folder STREQUAL "test") # its data/ is beside the sources
+    set(working_directory "${PROJECT_SOURCE_DIR}/test/Conformal_equivalence")
+  else() # examples may write files; they read CGAL's meshes, and data/ beside the sources
+    set(working_directory "${PROJECT_BINARY_DIR}/run/${name}")
+    file(MAKE_DIRECTORY "${working_directory}")
+    if(EXISTS "${PROJECT_SOURCE_DIR}/${folder}/Conformal_equivalence/data")
+      file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}/Conformal_equivalence/data"
+           "${working_directory}/data" SYMBOLIC)
+    endif()
+    if(NOT EXISTS "${CGAL_DATA_DIR}/meshes")
+      set_tests_properties(${name} PROPERTIES DISABLED TRUE)
+    endif()
+  endif()
+  set_tests_properties(${name} PROPERTIES WORKING_DIRECTORY "${working_directory}")
+endfunction()
+
+# The programs of a folder, each with the arguments in <program>.cmd, as CGAL has them.
+function(conformal_equivalence_add_tests folder)
+  get_property(programs DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}/Conformal_equivalence"
+               PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(program IN LISTS programs)
+    get_target_property(type ${program} TYPE)
+    if(NOT type STREQUAL "EXECUTABLE" OR program MATCHES "^check_")
+      continue()
+    endif()
+    set(arguments)
+    set(arguments_file "${PROJECT_SOURCE_DIR}/${folder}/Conformal_equivalence/${program}.cmd")
+    if(EXISTS "${arguments_file}")
+      file(STRINGS "${arguments_file}" arguments REGEX "^[^#]" LIMIT_COUNT 1)
+      separate_arguments(arguments UNIX_COMMAND "${arguments}")
+    elseif(program STREQUAL "flatten_mesh")
+      set(arguments --help)
+    endif()
+    conformal_equivalence_test(${program} ${folder} ${program} ${arguments})
+  endforeach()
+endfunction()
+
+foreach(_folder IN LISTS _folders)
+  if(NOT _folder STREQUAL "benchmark")
+    conformal_equivalence_add_tests(${_folder})
+  endif()
+endforeach()
+
+# The program on meshes of CGAL that are disks, and its files judged by a program that
+# shares no code with it.
+if(TARGET flatten_mesh)
+  foreach(_mesh lion-head three_peaks mushroom nefertiti mesh_with_border cylinder)
+    set(_outputs -o ${_mesh}.obj --svg ${_mesh}.svg)
+    if(nlohmann_json_FOUND)
+      list(APPEND _outputs --report ${_mesh}.json)
+    endif()
+    set(_input "${CGAL_DATA_DIR}/meshes/${_mesh}.off")
+    conformal_equivalence_test(flatten_mesh_${_mesh} examples flatten_mesh "${_input}" ${_outputs})
+    if(TARGET check_flattening)
+      set(_output "${PROJECT_BINARY_DIR}/run/flatten_mesh_${_mesh}/${_mesh}.obj")
+      conformal_equivalence_test(check_flattening_${_mesh} examples check_flattening "${_input}" "${_output}")
+      set_tests_properties(flatten_mesh_${_mesh} PROPERTIES FIXTURES_SETUP flattened_${_mesh})
+      set_tests_properties(check_flattening_${_mesh} PROPERTIES FIXTURES_REQUIRED flattened_${_mesh})
+    endif()
+  endforeach()
+endif()
+
+if(NOT EXISTS "${CGAL_DATA_DIR}/meshes")
+  message(STATUS "Conformal_equivalence: no ${CGAL_DATA_DIR}/meshes (scripts/fetch_data): "
+                 "what needs them is skipped")
+endif()
+
+if("test" IN_LIST _folders)
+  conformal_equivalence_test(all_headers test all_headers)
+
+  add_test(NAME check_style COMMAND "${PROJECT_SOURCE_DIR}/scripts/check_style")
+  set_tests_properties(check_style PROPERTIES LABELS style)
+
+  # Installs, and builds an application that knows nothing but the installed package.
+  add_test(NAME installation
+    COMMAND ${CMAKE_COMMAND}
+      "-DBUILD_DIR=${PROJECT_BINARY_DIR}"
+      "-DAPPLICATION=${PROJECT_SOURCE_DIR}/test/Conformal_equivalence/installation"
+      "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
+      "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}"
+      "-DCMAKE_GENERATOR=${CMAKE_GENERATOR}"
+      "-DCMAKE_PREFIX_PATH=${CMAKE_PREFIX_PATH}"
+      "-DCGAL_DIR=${CGAL_DIR}"
+      "-DEigen3_DIR=${Eigen3_DIR}"
+      -P "${PROJECT_SOURCE_DIR}/test/Conformal_equivalence/installation/run.cmake")
+  set_tests_properties(installation PROPERTIES LABELS installation TIMEOUT 600)
+endif()
