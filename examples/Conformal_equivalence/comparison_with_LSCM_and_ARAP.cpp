@@ -30,7 +30,7 @@ namespace CE = CGAL::Conformal_equivalence;
 namespace PMP = CGAL::Polygon_mesh_processing;
 namespace params = CGAL::parameters;
 
-// The largest by the smallest scale of a border edge: 1 if the border keeps its shape's lengths.
+// The largest by the smallest scale of a border edge: 1 if the border keeps its lengths, up to a common factor.
 template <typename UVMap>
 double border_scale_range(const Mesh& sm, halfedge_descriptor bhd, UVMap uv)
 {

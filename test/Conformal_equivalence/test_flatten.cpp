@@ -14,13 +14,14 @@
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 
+#include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/boost/graph/Face_filtered_graph.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
-#include <boost/property_map/property_map.hpp>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -905,6 +906,18 @@ BOOST_AUTO_TEST_CASE(parameters_of_the_solver)
   const Report again = other.flatten(params::initial_log_scale_factor_map(m.u));
   BOOST_TEST(bool(again));
   BOOST_TEST(again.statistics.number_of_iterations == 0u);
+
+  typedef CGAL::Eigen_sparse_matrix<double>::EigenType Matrix;
+  const CGAL::Eigen_solver_traits<Eigen::SimplicialLLT<Matrix> > solver;
+  BOOST_TEST(bool(other.flatten(params::gradient_tolerance(1e-12).sparse_linear_solver(solver))));
+  is_same(1e-13);
+
+  const auto point = other.sm.add_property_map<Vertex, Point_3>("v:other_point").first;
+  for(Vertex v : vertices(other.sm))
+    std::swap(point[v], other.sm.point(v)); // now all at the origin
+  BOOST_TEST((other.flatten().status == Status::ZERO_LENGTH_EDGE));
+  BOOST_TEST(bool(other.flatten(params::gradient_tolerance(1e-12).vertex_point_map(point).number_of_iterations(50))));
+  is_same(0);
 
   Maps poor(hill(8, .7));
   const Report few = poor.flatten(params::gradient_tolerance(1e-12).number_of_iterations(1));

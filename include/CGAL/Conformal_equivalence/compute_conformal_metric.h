@@ -345,13 +345,14 @@ private:
 
     Vertex_vector residual = internal::wide_residual(triangulation_, s, conditions);
     double size = internal::largest_entry(residual);
-    for(int step = 0; step < 50 && size > 1e-4 * tolerance; ++step)
+    const double goal = 1e-3 * tolerance; // so that layouts are not spoiled by the sum of all residuals
+    for(int step = 0; step < 50 && size > goal; ++step)
     {
       linear_.graph().clear_fixed(residual);
       Vertex_vector d;
       bool converged;
       result.statistics.number_of_linear_iterations
-        += linear_.conjugate_gradients(energy_->weights(), residual, 1e-3, 100, d, converged);
+        += linear_.conjugate_gradients(energy_->weights(), residual, (std::max)(1e-3, 0.3 * goal / size), 100, d, converged);
       center(d);
       std::vector<Wide_number> moved = s;
       for(Index v = 0; v < u.size(); ++v)
