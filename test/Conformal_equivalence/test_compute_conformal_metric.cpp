@@ -451,13 +451,17 @@ BOOST_AUTO_TEST_CASE(both_strategies_come_back_from_afar)
   const Triangulation t = testing::triangulation(testing::hill(8, .5));
   const Conditions conditions(t);
   const std::vector<double> u = solved(t, conditions).log_scale_factors;
-  std::vector<double> far = testing::random_numbers(u.size(), 4, 3);
-  const auto initial = boost::make_iterator_property_map(far.begin(), boost::typed_identity_property_map<std::uint32_t>());
-  for(const CE::Newton_strategy strategy : {CE::Newton_strategy::LINE_SEARCH, CE::Newton_strategy::TRUST_REGION})
-  {
-    const Metric metric = solved(t, conditions, params::newton_strategy(strategy).initial_log_scale_factor_map(initial));
-    BOOST_CHECK_LE(largest_difference(metric.log_scale_factors, u), 1e-12);
-  }
+  for(const double distance : {1., 4., 16., 64.})
+    for(unsigned int seed = 1; seed <= 8; ++seed)
+    {
+      const std::vector<double> far = testing::random_numbers(u.size(), distance, seed);
+      const auto initial = boost::make_iterator_property_map(far.begin(), boost::typed_identity_property_map<std::uint32_t>());
+      for(const CE::Newton_strategy strategy : {CE::Newton_strategy::LINE_SEARCH, CE::Newton_strategy::TRUST_REGION})
+      {
+        const Metric metric = solved(t, conditions, params::newton_strategy(strategy).initial_log_scale_factor_map(initial));
+        BOOST_CHECK_LE(largest_difference(metric.log_scale_factors, u), 1e-12);
+      }
+    }
 }
 
 BOOST_AUTO_TEST_CASE(solvers_of_the_user)

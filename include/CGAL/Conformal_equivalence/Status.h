@@ -269,7 +269,7 @@ enum class Retriangulation
 /// How Newton's method is made globally convergent.
 enum class Newton_strategy
 {
-  LINE_SEARCH,  ///< inexact Newton steps, line search on the directional derivative
+  LINE_SEARCH,  ///< inexact Newton steps, line search on the directional derivative; a trust region where triangles are broken
   TRUST_REGION  ///< Newton-Steihaug: truncated conjugate gradients in a trust region
 };
 

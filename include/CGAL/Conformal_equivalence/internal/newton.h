@@ -139,18 +139,17 @@ private:
   }
 
   // Goes along d as far as the derivative of E has not become more than half as
-  // large upwards as it was downwards at the start.
+  // large upwards as it was downwards at the start. Where triangles are broken the
+  // Hessian may be singular, and what it says of directions useless: there, a
+  // trust region tells how far to go.
   bool line_search_step(Vertex_vector& u)
   {
     Vertex_vector d;
-    if(!newton_direction(d))
-      return false;
+    if(!energy_.broken_faces().empty() || !newton_direction(d))
+      return trust_region_step(u);
     const double slope = dot(residual_, d);
     Vertex_vector trial(u.size()), r;
-    // where triangles are broken the Hessian may be nearly singular, and the step without bound
-    const double bound = 10 / largest_entry(d);
-    const double first = energy_.broken_faces().empty() || !(bound < 1) ? 1 : bound;
-    for(double t = first; t > 1e-12 * first; )
+    for(double t = 1; t > 1e-6; )
     {
       for(std::size_t v = 0; v < u.size(); ++v)
         trial[v] = u[v] + t * d[v];
@@ -160,6 +159,7 @@ private:
       {
         u.swap(trial);
         residual_.swap(r);
+        radius_ = 0;
         return true;
       }
       // the zero of the secant through both slopes, safeguarded
@@ -167,7 +167,7 @@ private:
       t *= (std::min)(0.7, (std::max)(0.1, secant));
     }
     evaluate(u, residual_);
-    return false;
+    return trust_region_step(u);
   }
 
   // Newton-Steihaug (T. Steihaug, 1983): conjugate gradients, left at the boundary

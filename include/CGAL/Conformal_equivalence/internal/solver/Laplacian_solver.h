@@ -312,7 +312,8 @@ public:
     has_factor_ = false;
   }
 
-  // factorizes A(w), regularized until it is positive definite
+  // factorizes A(w), regularized until it is positive definite; if that fails because rounding
+  // has spoiled w (there are triangles with cotangents of 1e15), the Laplacian of tame weights
   bool factorize(const std::vector<double>& w)
   {
     has_factor_ = graph_.number_of_free == 0;
@@ -330,7 +331,8 @@ public:
       for(std::size_t v = 0; v < shift.size(); ++v)
         shift[v] += relative * (std::max)(diagonal[v], 0.);
     }
-    return false;
+    ++number_of_factorizations_;
+    return has_factor_ = factor_.factor(graph_, tame(w), Vertex_vector(shift.size(), 0.));
   }
 
   // x = A^-1 b with the matrix last factorized
@@ -391,6 +393,20 @@ public:
   }
 
 private:
+  // Positive weights of moderate range.
+  static std::vector<double> tame(const std::vector<double>& w)
+  {
+    std::vector<double> size(w);
+    for(double& x : size)
+      x = std::isfinite(x) ? std::abs(x) : 0;
+    std::vector<double> sorted(size);
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double median = sorted[sorted.size() / 2] > 0 ? sorted[sorted.size() / 2] : 1;
+    for(double& x : size)
+      x = (std::min)((std::max)(x, 1e-3 * median), 1e3 * median);
+    return size;
+  }
+
   Edge_graph graph_;
   Factorization<SolverTraits> factor_;
   bool has_factor_ = false;
