@@ -1,0 +1,189 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Time, memory and quality of one method on one mesh:
+//
+//   performance MESH METHOD
+//
+// MESH is a file, `terrain:N` (a generated height field of about N vertices) or
+// `loop:K:NOISE:FILE` (K times subdivided after Loop, then moved by NOISE edge lengths).
+// METHOD is `ours`, `ours-simplicial`, `lscm`, `arap`, `dcm`, `baseline`, or `check`
+// (is MESH a disk?). One method per process, so that the peak of memory is its own. Prints a
+// line `key value` for each figure.
+//
+// Seconds are those of the processors, which other work on the machine does not change; let
+// OMP_NUM_THREADS and OPENBLAS_NUM_THREADS be 1 for them to be what passes on an idle machine.
+//
+// `ours` and `baseline` also measure what a linear method must do at least: one
+// analysis and factorization of the Laplacian (the Hessian at u = 0, natural border) by
+// CHOLMOD, ordered by AMD; `baseline` by METIS too.
+
+#include "../include/methods.h"
+
+#include <CGAL/Conformal_equivalence/internal/energy.h>
+#include <CGAL/Conformal_equivalence/internal/solver/Laplacian_solver.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+
+namespace {
+
+using namespace benchmarks;
+
+// in bytes; Linux counts in units of 1024, macOS in bytes
+double peak_memory()
+{
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+  return double(usage.ru_maxrss);
+#else
+  return 1024. * double(usage.ru_maxrss);
+#endif
+}
+
+template <typename Value>
+void print(const char* key, const Value& value)
+{
+  std::cout << key << ' ' << value << std::endl;
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD
+
+// The lower half of the Laplacian of the vertices that are not on the border.
+Eigen::SparseMatrix<double> laplacian(const Mesh& mesh)
+{
+  const auto imported = CE::import_mesh(mesh);
+  const CE::Intrinsic_triangulation<double>& t = imported.triangulation;
+  CE::internal::Conformal_energy<double> energy(t, true);
+  energy.evaluate(std::vector<double>(t.number_of_vertices(), 0.));
+  std::vector<char> free(t.number_of_vertices());
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    free[v] = t.is_isolated_vertex(v) || t.is_border_vertex(v) ? 0 : 1;
+  CE::internal::Edge_graph graph;
+  graph.set_edges(t);
+  graph.set_free(free);
+  return CE::internal::assemble_lower(graph, energy.weights(), std::vector<double>(t.number_of_vertices(), 0.));
+}
+
+void measure_factorization(const Eigen::SparseMatrix<double>& a, const std::string& name, int ordering)
+{
+  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double> > solver;
+  solver.cholmod().nmethods = 1;
+  solver.cholmod().method[0].ordering = ordering;
+  solver.cholmod().postorder = true;
+  solver.cholmod().print = 0;
+  const Processor_stopwatch stopwatch;
+  solver.analyzePattern(a);
+  const double analysis = stopwatch.seconds();
+  solver.factorize(a);
+  const double both = stopwatch.seconds();
+  if(solver.info() != Eigen::Success)
+    return; // not positive definite: no figure
+  print((name + "_analyze_seconds").c_str(), analysis);
+  print((name + "_factorize_seconds").c_str(), both - analysis);
+  print((name + "_seconds").c_str(), both);
+}
+
+void measure_baseline(const Mesh& mesh, bool with_metis)
+{
+  const Eigen::SparseMatrix<double> a = laplacian(mesh);
+  measure_factorization(a, "amd", CHOLMOD_AMD);
+  if(with_metis)
+    measure_factorization(a, "metis", CHOLMOD_METIS);
+}
+
+#else
+
+void measure_baseline(const Mesh&, bool) {}
+
+#endif
+
+void print_statistics(const Result& result)
+{
+  const CE::Statistics& s = result.statistics;
+  print("import_seconds", result.stage_seconds[CE::Stage::IMPORT]);
+  print("solve_seconds", result.stage_seconds[CE::Stage::SOLVE]);
+  print("layout_seconds", result.stage_seconds[CE::Stage::LAYOUT]);
+  print("verify_seconds", result.stage_seconds[CE::Stage::VERIFY]);
+  print("newton_steps", s.number_of_iterations);
+  print("pcg_iterations", s.number_of_linear_iterations);
+  print("factorizations", s.number_of_factorizations);
+  print("evaluations", s.number_of_evaluations);
+  print("residual", s.residual);
+}
+
+void print_quality(const Mesh& mesh, UV_map uv)
+{
+  const Quality quality = measure(mesh, uv);
+  print("qc_mean", quality.mean_qc);
+  print("qc_max", quality.max_qc);
+  print("flips", quality.flips);
+  print("injective", to_string(quality.injectivity));
+  print("border_error", quality.border_error);
+}
+
+int run(const std::string& specification, const std::string& method)
+{
+  const bool is_ours = method.compare(0, 4, "ours") == 0;
+  Mesh mesh = make_mesh(specification);
+  print("vertices", num_vertices(mesh));
+  print("faces", num_faces(mesh));
+  if(method == "check")
+    return is_disk(mesh) ? EXIT_SUCCESS : EXIT_FAILURE;
+  if(method == "baseline")
+  {
+    measure_baseline(mesh, true);
+    return EXIT_SUCCESS;
+  }
+
+  const UV_map uv = mesh.add_property_map<halfedge_descriptor, Point_2>("h:uv", Point_2(0, 0)).first;
+  print("memory_before", peak_memory());
+  const Result result = run_method(method, mesh, uv);
+  print("memory", peak_memory());
+  print("status", result.is_success ? "ok" : "failed: " + result.message);
+  print("total_seconds", result.seconds);
+  print("elapsed_seconds", result.elapsed_seconds);
+  if(is_ours)
+    print_statistics(result);
+  if(method == "ours")
+    measure_baseline(mesh, false); // right after, for the ratio
+  if(!result.is_success)
+    return EXIT_FAILURE;
+  if(is_ours)
+  {
+    print("max_u", result.largest_u);
+    print("layout_length_error", result.layout_length_error);
+  }
+  print_quality(mesh, uv);
+  return EXIT_SUCCESS;
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  std::cout.precision(8);
+  try
+  {
+    return run(argc > 1 ? argv[1] : "terrain:10000", argc > 2 ? argv[2] : "ours");
+  }
+  catch(const std::bad_alloc&)
+  {
+    print("status", "out of memory");
+    return EXIT_FAILURE;
+  }
+  catch(const std::exception& error)
+  {
+    print("status", "exception");
+    std::cerr << "performance: " << error.what() << std::endl;
+    return EXIT_FAILURE;
+  }
+}
