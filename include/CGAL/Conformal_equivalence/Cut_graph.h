@@ -21,15 +21,25 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceLayout
 ///
-/// The interior edges along which a surface is cut.
+/// The interior edges along which a surface is cut, as found by `compute_cut_graph()` or set by the user.
 struct Cut_graph
 {
   std::vector<char> is_cut;           ///< by edge of the input triangulation; empty: nothing is cut
   Status status = Status::OK;         ///< whether the surface could be cut
-  std::vector<std::uint32_t> edges;   ///< at fault
+  std::vector<std::uint32_t> edges;   ///< edges at fault
+  std::vector<std::uint32_t> faces;   ///< one face of every component at fault
+
+  /// The system of loops: 2g of them for a surface of genus g, each a chain of halfedges of the input triangulation
+  /// in order. The loops of one component begin and end at one base vertex, or on one border; a
+  /// loop that meets a border elsewhere goes on from any vertex of it. Empty if nothing had to be cut for handles, or
+  /// if the user set the cut.
+  std::vector<std::vector<std::uint32_t> > loops;
 
   /// is `true` iff the edge `e` is cut.
   bool operator[](std::uint32_t e) const { return !is_cut.empty() && is_cut[e] != 0; }
+
+  /// is `true` iff the surface could be cut.
+  explicit operator bool() const { return is_success(status); }
 };
 
 } // namespace Conformal_equivalence

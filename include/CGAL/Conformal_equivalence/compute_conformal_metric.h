@@ -345,7 +345,7 @@ private:
 
     Vertex_vector residual = internal::wide_residual(triangulation_, s, conditions);
     double size = internal::largest_entry(residual);
-    const double goal = 1e-3 * tolerance; // so that layouts are not spoiled by the sum of all residuals
+    const double goal = 1e-4 * tolerance; // so that layouts are not spoiled by the sum of all residuals
     for(int step = 0; step < 50 && size > goal; ++step)
     {
       linear_.graph().clear_fixed(residual);

@@ -29,7 +29,7 @@
 ///
 /// How far a layout of a triangle mesh in the plane is from being conformal and from preserving areas;
 /// for any layout, made by this package or by another method
-/// (Springborn, Schröder, Pinkall 2008, Section 7, the column |qc|_1; Kharevych, Springborn, Schröder 2006).
+/// (Springborn, Schroeder, Pinkall 2008, Section 7, the column |qc|_1; Kharevych, Springborn, Schroeder 2006).
 ///
 /// In each triangle the layout is an affine map f with singular values s_max >= s_min.  In complex notation
 ///

@@ -24,7 +24,7 @@
 /// \file projective_interpolation.h
 ///
 /// How a layout extends from the vertices of a mesh to the points of its triangles
-/// (Springborn, Schröder, Pinkall 2008, Section 3.4 and Appendix D).
+/// (Springborn, Schroeder, Pinkall 2008, Section 3.4 and Appendix D).
 ///
 /// Besides the piecewise linear map there is, for conformally equivalent metrics and only for them,
 /// a continuous piecewise *projective* map: in each triangle the projective map that takes the vertices

@@ -29,7 +29,7 @@
 ///
 /// What a layout of a triangle mesh in the plane is worth, decided by exact predicates on its coordinates:
 /// are all triangles positively oriented, and is the layout injective
-/// (cf. Springborn, Schröder, Pinkall 2008, Section 7: "None of our layouts ... have any flipped triangles").
+/// (cf. Springborn, Schroeder, Pinkall 2008, Section 7: "None of our layouts ... have any flipped triangles").
 ///
 /// If all triangles are positive, the number of triangles over a generic point of the plane is the sum of the
 /// winding numbers of the layout's border around it (the degree of the map).  So the border alone tells whether

@@ -132,7 +132,7 @@ whatever the settings of the stream.
 \return `true` iff the stream is good after writing
 
 Takes linear time (quadratic in the number of distinct values at a single vertex).
-Springborn, Schröder, Pinkall 2008, section 3.4.
+Springborn, Schroeder, Pinkall 2008, section 3.4.
 */
 template <typename TriangleMesh, typename HalfedgeUVMap,
           typename NamedParameters = parameters::Default_named_parameters>
