@@ -4,13 +4,14 @@
 // Compile-only: the five programs that the interface was made for.
 
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h> // before Seam_mesh.h, which calls its functions by qualified names
+#include <CGAL/Surface_mesh.h>
 
 #include "include/rooms_to_come.h"
 
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/make_seam_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_equivalence_parameterizer_3.h>
 
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>

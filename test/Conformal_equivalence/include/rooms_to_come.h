@@ -11,8 +11,6 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
-#include <CGAL/boost/graph/Seam_mesh.h>
-
 #include <cstdlib>
 
 namespace CGAL {
@@ -21,12 +19,6 @@ namespace Conformal_equivalence {
 template <typename TriangleMesh, typename HalfedgeUVMap, typename NamedParameters = parameters::Default_named_parameters>
 Flattening_report<TriangleMesh> compute_seamless_parameterization(const TriangleMesh&, HalfedgeUVMap,
                                                                   const NamedParameters& = parameters::default_values())
-{
-  std::abort();
-}
-
-template <typename TriangleMesh, typename EdgeIsSeamMap, typename VertexIsOnSeamMap>
-Seam_mesh<TriangleMesh, EdgeIsSeamMap, VertexIsOnSeamMap> make_seam_mesh(const TriangleMesh&, EdgeIsSeamMap, VertexIsOnSeamMap)
 {
   std::abort();
 }
