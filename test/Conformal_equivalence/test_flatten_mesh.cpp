@@ -807,7 +807,7 @@ BOOST_AUTO_TEST_CASE(write_obj_with_other_points_and_weights)
   points[flattening::Vertex(2)] = flattening::Kernel::Point_3(4, 5, 6);
   std::ostringstream out;
   CE::IO::OBJ_material material;
-  material.library = "m.mtl";
+  material.file = "m.mtl";
   BOOST_TEST(CE::IO::write_OBJ(out, two.mesh, two.uv,
                                CGAL::parameters::projective_weight_map(weights).vertex_point_map(points), material));
   BOOST_TEST(contains(out.str(), "v 4 5 6\n"));

@@ -133,7 +133,7 @@ inline void write_obj(const Options& options, const Mesh& mesh, const Result& re
                       const Material_files& beside, Output_files& files)
 {
   CE::IO::OBJ_material material;
-  material.library = name_without_folder(beside.material);
+  material.file = name_without_folder(beside.material);
   files.write(options.obj, [&](std::ostream& out)
   {
     return options.projective

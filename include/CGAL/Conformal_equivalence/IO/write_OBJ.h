@@ -85,10 +85,10 @@ namespace IO {
 /// \ingroup PkgConformalEquivalenceIO
 /// The material that an OBJ file names: the material library (a file beside the
 /// OBJ file, written by `write_MTL()`) and the material in it. Nothing is named
-/// if `library` is empty.
+/// if `file` is empty.
 struct OBJ_material
 {
-  std::string library;         ///< name of the file, without a folder
+  std::string file;            ///< name of the file, without a folder
   std::string name = "layout"; ///< name of the material
 };
 
@@ -151,11 +151,11 @@ bool write_OBJ(std::ostream& out, const TriangleMesh& tm, HalfedgeUVMap uv,
 
   {
     internal::Text_buffer buffer(out);
-    if(! material.library.empty())
-      buffer << "mtllib " << material.library << '\n';
+    if(! material.file.empty())
+      buffer << "mtllib " << material.file << '\n';
     internal::write_obj_vertices(buffer, tm, vpm, vertex_number);
     internal::write_obj_texture_coordinates(buffer, tm, uv, weights, corner_number);
-    if(! material.library.empty())
+    if(! material.file.empty())
       buffer << "usemtl " << material.name << '\n';
     internal::write_obj_faces(buffer, tm, vertex_number, corner_number);
   }
