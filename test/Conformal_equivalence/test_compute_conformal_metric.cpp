@@ -15,6 +15,7 @@
 
 #include <functional>
 #include <limits>
+#include <new>
 
 namespace CE = CGAL::Conformal_equivalence;
 namespace CEi = CE::internal;
@@ -464,6 +465,20 @@ BOOST_AUTO_TEST_CASE(both_strategies_come_back_from_afar)
     }
 }
 
+// A tolerance that no number type here can meet: what can be reached is reported, not promised.
+BOOST_AUTO_TEST_CASE(rounding_is_admitted)
+{
+  const Triangulation t = testing::triangulation(testing::hill(8, .5));
+  const Conditions conditions(t);
+  const Metric metric = CE::compute_conformal_metric(t, conditions, params::gradient_tolerance(1e-40));
+  BOOST_REQUIRE(metric.status == Status::CONVERGED_TO_ROUNDING);
+  BOOST_CHECK(bool(metric));
+  BOOST_CHECK_GT(metric.amount, 1e-40);
+  BOOST_CHECK_LE(metric.amount, 1e-28); // the residual of a pair of doubles
+  BOOST_CHECK_LE(metric.amount, metric.statistics.residual_floor);
+  BOOST_CHECK_LE(largest_difference(metric.log_scale_factors, solved(t, conditions).log_scale_factors), 1e-12);
+}
+
 BOOST_AUTO_TEST_CASE(solvers_of_the_user)
 {
   typedef CGAL::Eigen_sparse_matrix<double>::EigenType Matrix;
@@ -478,6 +493,31 @@ BOOST_AUTO_TEST_CASE(solvers_of_the_user)
   check(CGAL::Eigen_solver_traits<Eigen::SparseLU<Matrix> >());
   check(CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Matrix> >());
   check(CGAL::Eigen_solver_traits<Eigen::ConjugateGradient<CGAL::Eigen_sparse_symmetric_matrix<double>::EigenType> >());
+}
+
+typedef CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<CGAL::Eigen_sparse_matrix<double>::EigenType> > Plain_traits;
+
+struct Failing_traits : Plain_traits
+{
+  bool factor(const Matrix&, NT&) { return false; }
+};
+
+struct Greedy_traits : Plain_traits
+{
+  bool factor(const Matrix&, NT&) { throw std::bad_alloc(); }
+};
+
+BOOST_AUTO_TEST_CASE(failures_of_the_linear_solver)
+{
+  const Triangulation t = testing::triangulation(testing::hill(8, .5));
+  const Conditions conditions(t);
+  const Metric singular = CE::compute_conformal_metric(t, conditions, params::gradient_tolerance(1e-12).sparse_linear_solver(Failing_traits()));
+  BOOST_CHECK(singular.status == Status::SINGULAR_PROBLEM);
+  BOOST_CHECK(singular.log_scale_factors.empty());
+  const Metric greedy = CE::compute_conformal_metric(t, conditions, params::gradient_tolerance(1e-12).sparse_linear_solver(Greedy_traits()));
+  BOOST_CHECK(greedy.status == Status::OUT_OF_MEMORY);
+  BOOST_CHECK(greedy.log_scale_factors.empty());
+  BOOST_CHECK_EQUAL(greedy.triangulation.number_of_faces(), t.number_of_faces());
 }
 
 struct Watch
