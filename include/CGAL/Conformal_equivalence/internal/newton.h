@@ -140,13 +140,17 @@ private:
 
   // Goes along d as far as the derivative of E has not become more than half as
   // large upwards as it was downwards at the start. Where triangles are broken the
-  // Hessian may be singular, and what it says of directions useless: there, a
-  // trust region tells how far to go.
+  // Hessian may be singular, and d useless; from then on, until no triangle
+  // is broken any more, a trust region tells how far to go.
   bool line_search_step(Vertex_vector& u)
   {
-    Vertex_vector d;
-    if(!energy_.broken_faces().empty() || !newton_direction(d))
+    is_lost_ = is_lost_ && !energy_.broken_faces().empty();
+    if(is_lost_)
       return trust_region_step(u);
+    Vertex_vector d;
+    const double far = 10; // in u
+    if(!newton_direction(d) || (!energy_.broken_faces().empty() && !(largest_entry(d) <= far)))
+      return begin_trust_region(u);
     const double slope = dot(residual_, d);
     Vertex_vector trial(u.size()), r;
     for(double t = 1; t > 1e-6; )
@@ -159,15 +163,28 @@ private:
       {
         u.swap(trial);
         residual_.swap(r);
-        radius_ = 0;
         return true;
       }
       // the zero of the secant through both slopes, safeguarded
       const double secant = is_finite ? slope / (slope - slope_there) : 0.1;
       t *= (std::min)(0.7, (std::max)(0.1, secant));
     }
+    return begin_trust_region(u);
+  }
+
+  // The factor for the trust region is that of the first metric again: a Hessian at broken triangles makes a
+  // bad norm. Where no triangle is broken, it is rounding that keeps the line search from going on.
+  bool begin_trust_region(Vertex_vector& u)
+  {
     evaluate(u, residual_);
-    return trust_region_step(u);
+    if(energy_.broken_faces().empty())
+      return false;
+    is_lost_ = true;
+    radius_ = 0;
+    energy_.evaluate(Vertex_vector(u.size(), 0.));
+    const bool has_factor = solver_.factorize(energy_.weights());
+    evaluate(u, residual_);
+    return has_factor && trust_region_step(u);
   }
 
   // Newton-Steihaug (T. Steihaug, 1983): conjugate gradients, left at the boundary
@@ -274,6 +291,7 @@ private:
   double floor_ = 0;
   double radius_ = 0, step_norm_ = 0; // of the trust region
   bool at_boundary_ = false;
+  bool is_lost_ = false; // line search has failed among broken triangles
 };
 
 } // namespace internal
