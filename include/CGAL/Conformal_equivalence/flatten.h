@@ -18,8 +18,8 @@
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/verify_layout.h>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/boost/graph/iterator.h>
 
 #include <boost/graph/graph_traits.hpp>
@@ -189,13 +189,10 @@ private:
   // Every triangle of the layout, as rounded, is exactly positive, or named.
   void verify()
   {
-    typedef Exact_predicates_inexact_constructions_kernel Kernel;
     std::vector<std::uint32_t> flipped;
-    const auto point = [&](std::uint32_t h) { return Kernel::Point_2(layout.corner[h][0], layout.corner[h][1]); };
-    const auto is_finite = [&](std::uint32_t h) { return std::isfinite(layout.corner[h][0]) && std::isfinite(layout.corner[h][1]); };
+    const auto point = [&](std::uint32_t h) { return Plane_point(layout.corner[h][0], layout.corner[h][1]); };
     for(std::uint32_t f = 0; f < mesh.triangulation.number_of_faces(); ++f)
-      if(!is_finite(3 * f) || !is_finite(3 * f + 1) || !is_finite(3 * f + 2)
-         || CGAL::orientation(point(3 * f), point(3 * f + 1), point(3 * f + 2)) != CGAL::LEFT_TURN)
+      if(triangle_orientation({{point(3 * f), point(3 * f + 1), point(3 * f + 2)}}) != CGAL::LEFT_TURN)
         flipped.push_back(f);
     if(flipped.empty())
       return;
