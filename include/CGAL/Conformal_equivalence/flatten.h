@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/projective_interpolation.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 
 #include <CGAL/boost/graph/iterator.h>
@@ -200,9 +201,6 @@ private:
     name_elements(mesh, {}, {}, flipped, report);
   }
 };
-
-// The weights e^{-u} of projective interpolation, scaled to a maximum of 1.
-inline double projective_weight(double u, double least_u) { return std::exp(least_u - u); }
 
 // Writes u, weights and scaled lengths to the maps that were given for them.
 template <typename TriangleMesh, typename NamedParameters>

@@ -303,6 +303,12 @@ double smallest_weight()
                                         : (std::numeric_limits<double>::min)();
 }
 
+// e^{-u}, scaled to a maximum of 1 and never 0.
+inline double projective_weight(double u, double smallest_u)
+{
+  return (std::min)(1., (std::max)(std::exp(smallest_u - u), smallest_weight<double>()));
+}
+
 // The weights of the corners, in the same order, scaled in double so that a narrow `FT` holds them.
 template <typename FT, typename TriangleMesh, typename VertexWeightMap>
 std::array<FT, 3> corner_weights(const TriangleMesh& tm,
@@ -356,8 +362,7 @@ void projective_weights(const TriangleMesh& tm,
 
   for(auto v : vertices(tm))
   {
-    const double w = std::exp(smallest_u - double(get(log_scale_factor_map, v)));
-    put(weight_map, v, (std::min)(1., (std::max)(w, internal::smallest_weight<double>())));
+    put(weight_map, v, internal::projective_weight(double(get(log_scale_factor_map, v)), smallest_u));
   }
 }
 
