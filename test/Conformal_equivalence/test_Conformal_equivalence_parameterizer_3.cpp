@@ -355,8 +355,8 @@ BOOST_AUTO_TEST_CASE(seam_mesh)
     if(is_border(s, seam_mesh))
       bhd = s;
   auto uv = sm.add_property_map<Halfedge, Point_2>("h:uv").first;
-  CE::Flattening_report<Seam_mesh> report;
-  const SMP::Conformal_equivalence_parameterizer_3<Seam_mesh> parameterizer(params::flattening_report(std::ref(report)));
+  Report report;
+  const SMP::Conformal_equivalence_parameterizer_3<Seam_mesh> parameterizer(params::seam_is_border(true).flattening_report(std::ref(report)));
   const SMP::Error_code error = SMP::parameterize(seam_mesh, parameterizer, bhd, uv);
   BOOST_TEST((error == SMP::OK), CE::message(report));
 }

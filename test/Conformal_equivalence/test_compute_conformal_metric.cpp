@@ -651,10 +651,27 @@ BOOST_AUTO_TEST_CASE(gauss_bonnet_is_demanded)
   refused(t, conditions, Status::GAUSS_BONNET_VIOLATED);
 
   const Triangulation sphere = testing::triangulation(testing::icosphere(1)); // a sphere is not flat
-  BOOST_CHECK_CLOSE_FRACTION(refused(sphere, Conditions(sphere), Status::GAUSS_BONNET_VIOLATED).amount, -4 * CGAL_PI, 1e-14);
+  const Metric without_cones = refused(sphere, Conditions(sphere), Status::MISSING_CONDITION);
+  BOOST_CHECK_CLOSE_FRACTION(without_cones.amount, 4 * CGAL_PI, 1e-14);
+  BOOST_CHECK(without_cones.faces == std::vector<Index>{0});
+  Conditions one_cone(sphere);
+  one_cone.prescribe_angle_sum(5, Angle::pi_times(1));
+  const Metric one = refused(sphere, one_cone, Status::GAUSS_BONNET_VIOLATED);
+  BOOST_CHECK_CLOSE_FRACTION(one.amount, -3 * CGAL_PI, 1e-14);
+  BOOST_CHECK(one.vertices == std::vector<Index>{5});
+  // two free cones have a total angle of 2 pi (2 - 2) = 0
+  Conditions free_cones(sphere);
+  free_cones.fix_log_scale_factor(3, 0);
+  free_cones.fix_log_scale_factor(8, 0);
+  const Metric two = refused(sphere, free_cones, Status::NO_ANGLE_LEFT);
+  BOOST_CHECK_EQUAL(two.amount, 0);
+  BOOST_CHECK((two.vertices == std::vector<Index>{3, 8}));
+  free_cones.fix_log_scale_factor(11, 0);
+  solved(sphere, free_cones);
   // the second of two components
-  const Triangulation both = testing::triangulation(testing::together({testing::hill(3, .2), testing::icosahedron()}));
-  refused(both, Conditions(both), Status::GAUSS_BONNET_VIOLATED);
+  const testing::Soup hill = testing::hill(3, .2);
+  const Triangulation both = testing::triangulation(testing::together({hill, testing::icosahedron()}));
+  BOOST_CHECK(refused(both, Conditions(both), Status::MISSING_CONDITION).faces == std::vector<Index>{Index(hill.triangles.size())});
 
   // a flat disk with a straight border needs three fixed vertices: one or two are left no angle
   for(Index fixed = 1; fixed <= 4; ++fixed)
@@ -669,7 +686,7 @@ BOOST_AUTO_TEST_CASE(gauss_bonnet_is_demanded)
     if(fixed == 1)
       refused(t, mixed, Status::ANGLE_OUT_OF_RANGE);
     else if(fixed == 2)
-      refused(t, mixed, Status::GAUSS_BONNET_VIOLATED);
+      BOOST_CHECK((refused(t, mixed, Status::NO_ANGLE_LEFT).vertices == std::vector<Index>{corners[0], corners[1]}));
     else
       solved(t, mixed);
   }

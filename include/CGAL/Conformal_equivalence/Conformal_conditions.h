@@ -122,6 +122,11 @@ struct Conformal_conditions
 
   /// is `true` iff u is fixed at `v`, `false` iff the angle sum is prescribed.
   bool is_fixed(Index v) const { return is_fixed_[v] != 0; }
+  /// is `true` iff an interior vertex `v` would be a cone: u is fixed there (a free cone), or the angle sum is not 2 pi.
+  bool is_cone(Index v) const
+  {
+    return is_fixed(v) || !angle_[v].is_exact() || angle_[v].units != 2 * Exact_angle<NT>::units_of_pi;
+  }
   /// the angle sum prescribed at `v`. \pre `!is_fixed(v)`
   const Exact_angle<NT>& angle_sum(Index v) const { return angle_[v]; }
   /// u as fixed at `v`. \pre `is_fixed(v)`

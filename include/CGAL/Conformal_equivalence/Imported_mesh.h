@@ -13,6 +13,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/wedges.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/boost/graph/helpers.h>
@@ -90,7 +91,26 @@ public:
   {
     number_elements(face_range);
     if(status == Status::OK)
-      glue();
+      glue([](edge_descriptor) { return false; });
+    if(status == Status::OK)
+      refuse_non_manifold_vertices();
+  }
+
+  /// imports the faces in `face_range`, cut open along the edges `e` for which `is_cut(e)` is `true`: these
+  /// become border edges. A vertex whose triangles then form several fans becomes as many vertices; the first of them keeps its number
+  /// in `vertices(tm)`, the others are numbered after all vertices of the mesh. (So no vertex is refused as
+  /// not manifold.) Linear time.
+  template <typename FaceRange, typename IsCut>
+  Imported_mesh(const TriangleMesh& tm, const FaceRange& face_range, const IsCut& is_cut)
+    : mesh_(&tm),
+      vertex_index_(get(Vertex_index_tag(), tm)),
+      face_index_(get(Face_index_tag(), tm))
+  {
+    number_elements(face_range);
+    if(status != Status::OK)
+      return;
+    glue(is_cut);
+    split_vertices();
   }
 
   /// the mesh that was imported.
@@ -113,7 +133,7 @@ public:
   /// \name Indices to descriptors
   /// @{
 
-  /// the vertex number `v`
+  /// the vertex number `v`; the same for all copies of a vertex that was split
   vertex_descriptor vertex(Index v) const { return vertices_[v]; }
 
   /// the face number `f`
@@ -138,7 +158,7 @@ public:
   /// \name Descriptors to indices
   /// @{
 
-  /// the number of `v`
+  /// the number of `v`, which is its position in `vertices(tm)`
   Index index_of_vertex(vertex_descriptor v) const { return get(vertex_index_, v); }
 
   /// the number of `f`; `Intrinsic_triangulation::null_index` if `f` was not imported
@@ -165,7 +185,7 @@ public:
         && get(face_index_, f) != Intrinsic_triangulation<NT>::null_index;
   }
 
-  /// the number of `e`. \pre a face at `e` was imported
+  /// the number of `e`; of the side of `halfedge(e, tm)` if `e` was cut. \pre a face at `e` was imported
   Index index_of_edge(edge_descriptor e) const
   {
     const halfedge_descriptor h = internal::halfedge_of_edge(e, *mesh_);
@@ -210,7 +230,8 @@ private:
       status = Status::NOT_TRIANGULATED;
   }
 
-  void glue()
+  template <typename IsCut>
+  void glue(const IsCut& is_cut)
   {
     std::vector<Index> origin, twin;
     origin.reserve(3 * faces_.size());
@@ -221,15 +242,44 @@ private:
       for(int k = 0; k < 3; ++k, h = next(h, *mesh_))
       {
         const halfedge_descriptor opposite_h = opposite(h, *mesh_);
+        const bool is_glued = is_imported(opposite_h) && !is_cut(internal::edge_of_halfedge(h, *mesh_));
         origin.push_back(get(vertex_index_, source(h, *mesh_)));
-        twin.push_back(is_imported(opposite_h) ? index_of_halfedge(opposite_h)
-                                               : Intrinsic_triangulation<NT>::null_index);
+        twin.push_back(is_glued ? index_of_halfedge(opposite_h) : Intrinsic_triangulation<NT>::null_index);
       }
     }
     triangulation = Intrinsic_triangulation<NT>(Index(vertices_.size()), std::move(origin), std::move(twin));
+  }
+
+  void refuse_non_manifold_vertices()
+  {
     faulty_vertices = non_manifold_vertices(triangulation);
     if(!faulty_vertices.empty())
       status = Status::NON_MANIFOLD;
+  }
+
+  // Makes each fan of triangles around a vertex a vertex of its own.
+  void split_vertices()
+  {
+    const Index null_index = Intrinsic_triangulation<NT>::null_index;
+    const internal::Wedges fans = internal::find_wedges(triangulation, internal::Nothing_is_cut());
+    std::vector<Index> vertex_of_fan(fans.number_of_wedges, null_index), origin(triangulation.number_of_halfedges()),
+                       twin(triangulation.number_of_halfedges());
+    std::vector<char> has_fan(vertices_.size(), 0);
+    for(Index h = 0; h < triangulation.number_of_halfedges(); ++h)
+    {
+      const Index v = triangulation.origin(h);
+      Index& own = vertex_of_fan[fans.of_corner[triangulation.previous(h)]];
+      if(own == null_index)
+      {
+        own = has_fan[v] ? Index(vertices_.size()) : v;
+        if(has_fan[v])
+          vertices_.push_back(vertex_descriptor(vertices_[v]));
+        has_fan[v] = 1;
+      }
+      origin[h] = own;
+      twin[h] = triangulation.twin(h);
+    }
+    triangulation = Intrinsic_triangulation<NT>(Index(vertices_.size()), std::move(origin), std::move(twin));
   }
 
   const TriangleMesh* mesh_;
@@ -384,13 +434,14 @@ void name_elements(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vecto
   for(std::uint32_t v : vertices)
   {
     report.vertices.push_back(mesh.vertex(v));
-    report.vertex_indices.push_back(v);
+    report.vertex_indices.push_back(mesh.index_of_vertex(mesh.vertex(v)));
   }
   for(std::uint32_t e : edges)
   {
     const std::uint32_t h = mesh.triangulation.edge_halfedge(e);
+    const auto position = [&](std::uint32_t v) { return mesh.index_of_vertex(mesh.vertex(v)); };
     report.edges.push_back(mesh.edge(e));
-    report.edge_indices.push_back({{mesh.triangulation.origin(h), mesh.triangulation.target(h)}});
+    report.edge_indices.push_back({{position(mesh.triangulation.origin(h)), position(mesh.triangulation.target(h))}});
   }
   for(std::uint32_t f : faces)
   {

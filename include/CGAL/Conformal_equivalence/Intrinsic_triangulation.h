@@ -268,6 +268,10 @@ struct Surface_components
     {
       return std::size_t((2 - euler_characteristic() - std::ptrdiff_t(number_of_borders)) / 2);
     }
+    /// `true` iff it has one border and no handle.
+    bool is_disk() const { return number_of_borders == 1 && euler_characteristic() == 1; }
+    /// `true` iff it is closed and has one handle.
+    bool is_torus() const { return number_of_borders == 0 && euler_characteristic() == 0; }
   };
   std::vector<Component> components;               ///< in the order of their first face
   std::size_t number_of_isolated_vertices = 0;     ///< vertices without a face
@@ -355,6 +359,21 @@ Surface_topology surface_topology(const Intrinsic_triangulation<NT>& t, const Su
     result.number_of_borders += c.number_of_borders;
     result.genus += c.genus();
   }
+  return result;
+}
+
+/// \ingroup PkgConformalEquivalenceMetric
+///
+/// returns the same for a single component.
+inline Surface_topology surface_topology(const Surface_components::Component& component)
+{
+  Surface_topology result;
+  result.number_of_vertices = component.number_of_vertices;
+  result.number_of_edges = component.number_of_edges;
+  result.number_of_faces = component.number_of_faces;
+  result.number_of_components = 1;
+  result.number_of_borders = component.number_of_borders;
+  result.genus = component.genus();
   return result;
 }
 

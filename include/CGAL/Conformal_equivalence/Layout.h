@@ -46,14 +46,17 @@ struct Layout
   std::vector<std::array<NT, 2> > corner;
   /// largest relative difference of an edge's length, as laid out and rounded, from its length in the metric
   double length_error = 0;
-  std::vector<Transition<NT> > transitions;  ///< one for every cut edge
+  std::vector<Transition<NT> > transitions;  ///< one for every cut edge, by index
+  std::vector<Period_lattice<NT> > lattices; ///< of the flat tori, by their first face
 
-  /// `OK`, or `WRONG_TOPOLOGY`: the surface or what the cuts leave of it is not connected
+  /// `OK`, or `EMPTY_MESH`: there is no face
   Status status = Status::OK;
 };
 
 /// \ingroup PkgConformalEquivalenceEnums
 /// How a layout is placed in the plane. Orientation is always kept.
+/// If there are several pieces, each is turned so that its longest principal axis is horizontal, and they are put beside one
+/// another in rows, apart from each other.
 enum class Layout_frame
 {
   CANONICAL,   ///< not scaled; barycentre of the area in the origin, longest principal axis horizontal

@@ -38,13 +38,16 @@ enum class Status
   INVALID_NUMBER,        ///< a coordinate, length or condition of the elements named is not a finite number, or a length is negative
   ZERO_LENGTH_EDGE,      ///< `edges` have length zero (coincident points)
   WRONG_TOPOLOGY,        ///< the surface is not of the kind that this function takes; see `Flattening_report::topology`
-  GAUSS_BONNET_VIOLATED, ///< the prescribed angles leave `amount` (radians) too much or too little
+  GAUSS_BONNET_VIOLATED, ///< on a component without fixed u, that of `vertices`, the prescribed angles leave `amount` (radians) too much or too little
+  NO_ANGLE_LEFT,         ///< on a component the prescribed angles leave `amount` <= 0 (radians) for `vertices`, where u is fixed
   ANGLE_OUT_OF_RANGE,    ///< the angle prescribed at `vertices` cannot occur there; `amount` is the first one (radians)
-  MISSING_CONDITION,     ///< `vertices` lack a condition that the function needs
+  MISSING_CONDITION,     ///< `vertices` lack a condition that the function needs; or the closed surfaces of `faces`, of a genus other than 1, lack cones
   SINGULAR_PROBLEM,      ///< the linear system could not be factorized
   ITERATIONS_EXHAUSTED,  ///< not converged; `amount` is the residual (radians), `faces` the triangles broken at that point
   DEGENERATE_METRIC,     ///< the minimizer violates the triangle inequality in `faces`
   NOT_INJECTIVE,         ///< the layout flips `faces`, or its border crosses itself
+  SEAM_LEAVES_NO_DISK,   ///< cut along the given seam, the surface is no disk; see `Flattening_report::topology`
+  SEAM_MISSES_CONE,      ///< the cones at `vertices` are not on the given seam
   STOPPED_BY_VISITOR,    ///< the visitor asked to stop
   OUT_OF_MEMORY,         ///< memory was exhausted
   NOT_AVAILABLE          ///< an option was asked for that this version does not have
@@ -68,10 +71,10 @@ struct Status_entry
 
 // The one table of statuses: what they say, and what CGAL's parameterizers call
 // them. In the order of the enumeration.
-inline const std::array<Status_entry, 18>& status_table()
+inline const std::array<Status_entry, 21>& status_table()
 {
   namespace SMP = Surface_mesh_parameterization;
-  static const std::array<Status_entry, 18> table = {{
+  static const std::array<Status_entry, 21> table = {{
     { Status::OK, "success", SMP::OK },
     { Status::CONVERGED_TO_ROUNDING, "converged to the rounding of the number type", SMP::OK },
     { Status::EMPTY_MESH, "the mesh has no face", SMP::ERROR_EMPTY_MESH },
@@ -81,12 +84,15 @@ inline const std::array<Status_entry, 18>& status_table()
     { Status::ZERO_LENGTH_EDGE, "the mesh has edges of length zero", SMP::ERROR_WRONG_PARAMETER },
     { Status::WRONG_TOPOLOGY, "the surface has the wrong topology", SMP::ERROR_NO_TOPOLOGICAL_DISC },
     { Status::GAUSS_BONNET_VIOLATED, "the prescribed angles violate the Gauss-Bonnet formula", SMP::ERROR_WRONG_PARAMETER },
+    { Status::NO_ANGLE_LEFT, "the prescribed angles leave none for the vertices of fixed scale", SMP::ERROR_WRONG_PARAMETER },
     { Status::ANGLE_OUT_OF_RANGE, "a prescribed angle is out of range", SMP::ERROR_WRONG_PARAMETER },
     { Status::MISSING_CONDITION, "a condition is missing", SMP::ERROR_BORDER_TOO_SHORT },
     { Status::SINGULAR_PROBLEM, "the linear system cannot be factorized", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM },
     { Status::ITERATIONS_EXHAUSTED, "the iteration did not converge", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM },
     { Status::DEGENERATE_METRIC, "the metric violates the triangle inequality", SMP::ERROR_NO_1_TO_1_MAPPING },
     { Status::NOT_INJECTIVE, "the map is not injective", SMP::ERROR_NO_1_TO_1_MAPPING },
+    { Status::SEAM_LEAVES_NO_DISK, "the seam does not cut the surface into a disk", SMP::ERROR_NO_TOPOLOGICAL_DISC },
+    { Status::SEAM_MISSES_CONE, "the seam misses a cone", SMP::ERROR_NO_TOPOLOGICAL_DISC },
     { Status::STOPPED_BY_VISITOR, "stopped by the visitor", SMP::ERROR_WRONG_PARAMETER },
     { Status::OUT_OF_MEMORY, "out of memory", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM },
     { Status::NOT_AVAILABLE, "this version does not have the option asked for", SMP::ERROR_WRONG_PARAMETER }
@@ -160,6 +166,46 @@ struct Statistics
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
+///
+/// The lattice of a flat torus, the closed surface of genus 1 that needs no cone: laid out again and again, moved by all
+/// sums of multiples of the periods, the torus covers the plane once.
+template <typename NT = double>
+struct Period_lattice
+{
+  /// a face of the torus: its index in an `Intrinsic_triangulation`, its position in `faces(tm)` for a mesh
+  std::size_t face = 0;
+  /// The two periods, in the coordinates of the layout. The basis is reduced: the first is a shortest period, the
+  /// second a shortest one of the others; the second lies to the left of the first.
+  std::array<std::array<NT, 2>, 2> periods = {{ {{NT(0), NT(0)}}, {{NT(0), NT(0)}} }};
+  /// The second period divided by the first, in complex numbers: the point of the standard fundamental domain,
+  /// |Re tau| <= 1/2, |tau| >= 1, that tells the conformal type of the torus. Of two such points on the boundary of the
+  /// domain it is the right one (Re tau >= 0); what is on the boundary is decided up to 1e-10.
+  std::array<NT, 2> tau = {{NT(0), NT(1)}};
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// A cone of the flat metric that was found: an interior vertex with an angle sum other than 2 pi, or of fixed u.
+template <typename TriangleMesh>
+struct Cone
+{
+  typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex; ///< where it is
+  std::size_t vertex_index; ///< position of `vertex` in `vertices(tm)`
+  double angle;             ///< its angle sum, in radians: as prescribed, or as found for a free cone
+  bool is_free;             ///< whether u was fixed, and the angle found
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// The motion z -> rotation * z + translation of the plane, in complex numbers, that takes one side of a
+/// seam edge to the other: `halfedge`, as laid out with its face, to its opposite, as laid out with the other face.
+template <typename TriangleMesh>
+struct Seam_transition
+{
+  typename boost::graph_traits<TriangleMesh>::halfedge_descriptor halfedge; ///< one side
+  std::array<double, 2> rotation;    ///< of absolute value 1
+  std::array<double, 2> translation; ///< a point of the plane
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
 /// What a function of this package reports about a mesh.
 template <typename TriangleMesh>
 struct [[nodiscard]] Flattening_report
@@ -191,6 +237,14 @@ struct [[nodiscard]] Flattening_report
   /// Largest relative difference of an edge length in the layout from the length
   /// that the metric gives it; zero if nothing was laid out.
   double layout_length_error = 0;
+
+  /// \name What was found
+  /// Empty unless there is a layout.
+  /// @{
+  std::vector<Cone<TriangleMesh> > cones;                    ///< in the order of `vertices(tm)`
+  std::vector<Seam_transition<TriangleMesh> > transitions;   ///< one for every edge of the seam; none across the borders of charts
+  std::vector<Period_lattice<> > lattices;                   ///< of the tori, in the order of their first faces
+  /// @}
 
   /// is `true` iff the result is usable.
   explicit operator bool() const { return is_success(status); }
@@ -229,6 +283,12 @@ inline void print_amount(std::ostream& out, Status status, double amount)
     case Status::CONVERGED_TO_ROUNDING:
     case Status::ITERATIONS_EXHAUSTED:  out << ": residual " << amount << " radians"; break;
     case Status::GAUSS_BONNET_VIOLATED: out << " by " << amount << " radians"; break;
+    case Status::NO_ANGLE_LEFT:         out << ": " << amount << " radians"; break;
+    case Status::MISSING_CONDITION:
+      if(amount != 0)
+        out << ": a closed surface of genus other than 1 needs cones, whose curvatures (2 pi - angle) sum up to "
+            << amount << " radians";
+      break;
     case Status::ANGLE_OUT_OF_RANGE:    out << ": " << amount << " radians"; break;
     default: break;
   }
@@ -245,7 +305,7 @@ std::string message(const Flattening_report<TriangleMesh>& report)
   std::ostringstream out;
   out << message(report.status);
   internal::print_amount(out, report.status, report.amount);
-  if(report.status == Status::WRONG_TOPOLOGY)
+  if(report.status == Status::WRONG_TOPOLOGY || report.status == Status::SEAM_LEAVES_NO_DISK)
     internal::print_topology(out, report.topology);
   internal::print_elements(out, "vertex", "vertices", report.vertex_indices,
                            [](std::ostream& o, std::size_t v) { o << v; });

@@ -137,8 +137,10 @@ public:
   ///
   /// \return the metric, with a status:
   ///  - `OK`, `CONVERGED_TO_ROUNDING`;
-  ///  - `EMPTY_MESH`, `INVALID_NUMBER` (vertices), `ANGLE_OUT_OF_RANGE` (vertices),
-  ///    `GAUSS_BONNET_VIOLATED`: the conditions have no solution, nothing was computed;
+  ///  - `EMPTY_MESH`, `INVALID_NUMBER` (vertices), `ANGLE_OUT_OF_RANGE` (vertices), `MISSING_CONDITION` (one face of
+  ///    every closed surface of a genus other than 1 that has no cone; `amount`: the curvature that cones must have there),
+  ///    `GAUSS_BONNET_VIOLATED` (the vertices with an angle that is not flat, or the border), `NO_ANGLE_LEFT` (the vertices
+  ///    of fixed u): the conditions have no solution, nothing was computed;
   ///  - `DEGENERATE_METRIC`: the minimizer was found, but is no metric: `faces` violate the
   ///    triangle inequality, decided exactly;
   ///  - `ITERATIONS_EXHAUSTED` (`amount`: the residual; `faces`: the triangles broken there),
@@ -241,6 +243,7 @@ private:
     result.status = feasibility.status;
     result.amount = feasibility.amount;
     result.vertices = feasibility.vertices;
+    result.faces = feasibility.faces;
     result.statistics.angle_defect_spread = feasibility.angle_defect_spread;
     return feasibility.status == Status::OK;
   }

@@ -9,6 +9,8 @@
 /// The direction of an edge is the sum of the corner angles on the way to it, a
 /// length is that of the metric itself: errors of one triangle are not multiplied
 /// by the next. All of it runs in a wider number type and is rounded once, at the end.
+///
+/// Across a cut edge the layout goes on after a motion of the plane, which is part of the result.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_COMPUTE_LAYOUT_H
 #define CGAL_CONFORMAL_EQUIVALENCE_COMPUTE_LAYOUT_H
@@ -20,6 +22,8 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/internal/layout_frames.h>
+#include <CGAL/Conformal_equivalence/internal/period_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/pieces.h>
 #include <CGAL/Conformal_equivalence/internal/wedges.h>
 #include <CGAL/Conformal_equivalence/internal/wide_residual.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -37,28 +41,6 @@ namespace Conformal_equivalence {
 
 namespace internal {
 
-// The face that is farthest from all borders and cuts, in steps of the dual graph:
-// from there no other is far.
-template <typename NT>
-std::uint32_t most_central_face(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut)
-{
-  typedef std::uint32_t Index;
-  std::vector<char> seen(t.number_of_faces(), 0);
-  std::vector<Index> queue;
-  queue.reserve(t.number_of_faces());
-  const auto enter = [&](Index f) { if(!seen[f]) { seen[f] = 1; queue.push_back(f); } };
-  for(Index h = 0; h < t.number_of_halfedges(); ++h)
-    if(t.is_border(h) || cut[t.edge(h)])
-      enter(t.face(h));
-  if(queue.empty())
-    enter(0);
-  for(std::size_t i = 0; i < queue.size(); ++i)
-    for(Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h)
-      if(!t.is_border(h))
-        enter(t.face(t.twin(h)));
-  return queue.back();
-}
-
 // The developing map.
 template <typename NT>
 class Development
@@ -70,26 +52,26 @@ public:
   typedef typename Metric::Wide_number Wide;
   typedef Complex_number<Wide> Complex;
 
-  std::vector<Complex> position; // by wedge
+  std::vector<Complex> position;   // by wedge
+  std::vector<char> is_laid_out;   // by face
 
   Development(const Metric& metric, const Cut_graph& cut, const Wedges& wedges)
     : position(wedges.number_of_wedges, Complex{Wide(0), Wide(0)}),
+      is_laid_out(metric.triangulation.number_of_faces(), 0),
       metric_(metric), t_(metric.triangulation), cut_(cut), wedges_(wedges),
       is_placed_(wedges.number_of_wedges, 0)
   {}
 
-  // Lays out everything that is connected with `root`; returns the number of faces.
-  std::size_t operator()(Index root)
+  // Lays out everything that is connected with `root`.
+  void operator()(Index root)
   {
-    std::vector<char> is_reached(t_.number_of_faces(), 0);
     std::queue<std::pair<Index, Complex> > queue; // a halfedge both ends of which are placed, and its direction
-    std::size_t count = 1;
 
     const Index h = 3 * root;
     const Complex east = {Wide(1), Wide(0)};
     place(origin_wedge(h), Complex{Wide(0), Wide(0)});
     place(wedges_.of_corner[h], Complex{metric_.wide_scaled_length(h), Wide(0)});
-    is_reached[root] = 1;
+    is_laid_out[root] = 1;
     queue.emplace(h, east);
     while(!queue.empty())
     {
@@ -99,14 +81,12 @@ public:
       Index side = g;
       for(int k = 0; k < 3; ++k, side = t_.next(side))
       {
-        if(t_.is_border(side) || cut_[t_.edge(side)] || is_reached[t_.face(t_.twin(side))])
+        if(t_.is_border(side) || cut_[t_.edge(side)] || is_laid_out[t_.face(t_.twin(side))])
           continue;
-        is_reached[t_.face(t_.twin(side))] = 1;
-        ++count;
+        is_laid_out[t_.face(t_.twin(side))] = 1;
         queue.emplace(t_.twin(side), Complex{-direction[k].re, -direction[k].im});
       }
     }
-    return count;
   }
 
 private:
@@ -143,19 +123,20 @@ private:
   std::vector<char> is_placed_;
 };
 
-// Rounds the positions and measures by how much lengths have changed.
-template <typename NT, typename Complex>
+// Rounds the positions and measures by how much lengths have changed, in the faces that are laid out.
+template <typename NT>
 void round_positions(const Conformal_metric<NT>& metric, const Cut_graph& cut, const Wedges& wedges,
-                     const std::vector<Complex>& position, const NT& scale, Layout<NT>& layout)
+                     const Development<NT>& development, const NT& scale, Layout<NT>& layout)
 {
   using std::abs;
   using std::sqrt;
   const Intrinsic_triangulation<NT>& t = metric.triangulation;
-  layout.corner.resize(t.number_of_halfedges());
+  layout.corner.resize(t.number_of_halfedges(), std::array<NT, 2>{{NT(0), NT(0)}});
   for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
   {
-    const Complex& z = position[wedges.of_corner[h]];
-    layout.corner[h] = {{static_cast<NT>(z.re), static_cast<NT>(z.im)}};
+    const auto& z = development.position[wedges.of_corner[h]];
+    if(development.is_laid_out[t.face(h)])
+      layout.corner[h] = {{static_cast<NT>(z.re), static_cast<NT>(z.im)}};
   }
 
   const auto measure = [&](std::uint32_t h, const NT& length)
@@ -167,47 +148,102 @@ void round_positions(const Conformal_metric<NT>& metric, const Cut_graph& cut, c
   };
   for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
   {
-    const std::uint32_t h = t.edge_halfedge(e);
+    const std::uint32_t h = t.edge_halfedge(e), g = t.twin(h);
     const NT length = metric.scaled_length(h) * scale;
-    measure(h, length);
-    if(cut[e] && !t.is_border(h))
-      measure(t.twin(h), length);
+    if(development.is_laid_out[t.face(h)])
+      measure(h, length);
+    if(cut[e] && !t.is_border(h) && development.is_laid_out[t.face(g)])
+      measure(g, length);
   }
 }
 
-// The motions across the cut edges.
+// The motion across the cut edge of h.
 template <typename NT>
-void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut, Layout<NT>& layout)
+Cut_motion<typename Development<NT>::Wide>
+find_motion(const Intrinsic_triangulation<NT>& t, const Wedges& wedges, const std::vector<std::uint32_t>& piece_of_face,
+            const Development<NT>& development, std::uint32_t h)
 {
-  typedef Complex_number<NT> Complex;
+  typedef typename Development<NT>::Wide Wide;
+  typedef typename Development<NT>::Complex Complex;
   using std::sqrt;
-  const auto corner = [&](std::uint32_t h) { return Complex{layout.corner[h][0], layout.corner[h][1]}; };
+  const std::uint32_t g = t.twin(h);
+  const auto corner = [&](std::uint32_t i) -> const Complex& { return development.position[wedges.of_corner[i]]; };
+  const Complex &p = corner(t.previous(h)), &q = corner(h), &p2 = corner(g), &q2 = corner(t.previous(g));
+  const double length = size_of(Complex{Wide(q.re - p.re), Wide(q.im - p.im)});
+  const Complex side{Wide((q.re - p.re) / length), Wide((q.im - p.im) / length)},
+                side2{Wide((q2.re - p2.re) / length), Wide((q2.im - p2.im) / length)};
+  Complex r = quotient(side2, side);
+  const Wide size = sqrt(Wide(r.re * r.re + r.im * r.im));
+  r = {Wide(r.re / size), Wide(r.im / size)};
+  const Complex moved = r * p;
+  return {piece_of_face[t.face(h)], piece_of_face[t.face(g)], r,
+          Complex{Wide(p2.re - moved.re), Wide(p2.im - moved.im)}, length};
+}
+
+// The motions across the cut edges between faces that are laid out, and the lattices of the flat tori.
+template <typename NT>
+void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut, const Wedges& wedges,
+                      const Development<NT>& development, Layout<NT>& layout)
+{
+  typedef Cut_motion<typename Development<NT>::Wide> Motion;
+  const auto rounded = [](const auto& z) { return std::array<NT, 2>{{static_cast<NT>(z.re), static_cast<NT>(z.im)}}; };
+  std::uint32_t number_of_pieces = 0;
+  const std::vector<std::uint32_t> piece_of_face = pieces_of_faces(t, cut, number_of_pieces);
+  const Surface_components surface = connected_components(t);
+  std::vector<std::vector<Motion> > motions_of_torus(surface.components.size());
+
   for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
   {
-    const std::uint32_t h = t.edge_halfedge(e), g = t.twin(h);
-    if(!cut[e] || t.is_border(h))
+    const std::uint32_t h = t.edge_halfedge(e), c = surface.component_of_vertex[t.origin(h)];
+    if(!cut[e] || t.is_border(h) || !development.is_laid_out[t.face(h)] || !development.is_laid_out[t.face(t.twin(h))])
       continue;
-    const Complex p = corner(t.previous(h)), q = corner(h), p2 = corner(g), q2 = corner(t.previous(g));
-    Complex r = Complex{q2.re - p2.re, q2.im - p2.im} * Complex{q.re - p.re, -(q.im - p.im)};
-    const NT size = sqrt(NT(r.re * r.re + r.im * r.im));
-    r = {r.re / size, r.im / size};
-    const Complex moved = r * p;
-    layout.transitions.push_back({h, {{r.re, r.im}}, {{p2.re - moved.re, p2.im - moved.im}}});
+    const Motion motion = find_motion(t, wedges, piece_of_face, development, h);
+    layout.transitions.push_back({h, rounded(motion.rotation), rounded(motion.translation)});
+    if(surface.components[c].is_torus())
+      motions_of_torus[c].push_back(motion);
   }
+  for(std::size_t c = 0; c < motions_of_torus.size(); ++c)
+  {
+    const std::uint32_t first = surface.components[c].first_face;
+    const auto basis = period_basis(std::move(motions_of_torus[c]), piece_of_face[first], number_of_pieces);
+    if(!basis.is_complete())
+      continue;
+    const auto periods = basis.standard_basis();
+    layout.lattices.push_back({first, {{rounded(periods.first), rounded(periods.second)}},
+                               rounded(quotient(periods.second, periods.first))});
+  }
+}
+
+// Lays out the given pieces only.
+template <typename NT, typename Frame>
+Layout<NT> lay_out_pieces(const Conformal_metric<NT>& metric, const Cut_graph& cut, const Wedges& wedges,
+                          const std::vector<Piece>& pieces, const Frame& frame)
+{
+  const Intrinsic_triangulation<NT>& t = metric.triangulation;
+  Layout<NT> layout;
+  Development<NT> development(metric, cut, wedges);
+  for(const Piece& piece : pieces)
+    development(piece.central_face);
+  const NT scale = move_to_frame(t, wedges.of_corner, pieces, frame, development.position);
+  round_positions(metric, cut, wedges, development, scale, layout);
+  if(!cut.is_cut.empty())
+    find_transitions(t, cut, wedges, development, layout);
+  return layout;
 }
 
 } // namespace internal
 
 /// \ingroup PkgConformalEquivalenceLayout
 ///
-/// lays out the flat surface of `metric`, cut along `cut`, in the plane. Linear time;
-/// the work runs in `Conformal_metric::Wide_number`.
+/// lays out the flat surface of `metric`, cut along `cut`, in the plane. Linear time; the work runs in
+/// `Conformal_metric::Wide_number`. The surface may have any number of components, and the cuts may leave it in any number of
+/// pieces: they are put beside one another and do not overlap each other (one by itself may).
 ///
 /// \param input the triangulation that was given to the solver
 /// \param metric what the solver returned; its angle sums should be 2 pi at every vertex that is not
 ///        on the border or a cut
-/// \param cut leaves the faces connected; what is cut open need not be a disk, but around whatever
-///        is not cut open the layout must close (`Layout::length_error` shows if it does not)
+/// \param cut what it leaves need not be disks, but around whatever is not cut open the layout must close
+///        (`Layout::length_error` shows if it does not)
 /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
 ///
 /// \cgalNamedParamsBegin
@@ -218,7 +254,7 @@ void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \return the layout. Its status is `WRONG_TOPOLOGY` if the faces are not connected or there are none.
+/// \return the layout, with the motions across the cuts and the lattices of flat tori. Its status is `EMPTY_MESH` if there is no face.
 /// \pre `metric` is a success, with the triangulation `input`.
 template <typename NT, typename NamedParameters = parameters::Default_named_parameters>
 Layout<NT> compute_layout(const Intrinsic_triangulation<NT>& input,
@@ -232,26 +268,17 @@ Layout<NT> compute_layout(const Intrinsic_triangulation<NT>& input,
   CGAL_precondition(input.number_of_halfedges() == metric.triangulation.number_of_halfedges());
   CGAL_USE(input);
 
-  Layout<NT> layout;
   const Intrinsic_triangulation<NT>& t = metric.triangulation;
   if(t.number_of_faces() == 0)
   {
-    layout.status = Status::WRONG_TOPOLOGY;
-    return layout;
+    Layout<NT> nothing;
+    nothing.status = Status::EMPTY_MESH;
+    return nothing;
   }
   const internal::Wedges wedges = internal::find_wedges(t, cut);
-  internal::Development<NT> development(metric, cut, wedges);
-  if(development(internal::most_central_face(t, cut)) != t.number_of_faces())
-  {
-    layout.status = Status::WRONG_TOPOLOGY;
-    return layout;
-  }
-  const NT scale = internal::move_to_frame(
-    t, wedges.of_corner, choose_parameter(get_parameter(np, internal_np::conformal_layout_frame), Layout_frame::CANONICAL),
-    development.position);
-  internal::round_positions(metric, cut, wedges, development.position, scale, layout);
-  internal::find_transitions(t, cut, layout);
-  return layout;
+  return internal::lay_out_pieces(
+    metric, cut, wedges, internal::find_pieces(t, cut, wedges),
+    choose_parameter(get_parameter(np, internal_np::conformal_layout_frame), Layout_frame::CANONICAL));
 }
 
 } // namespace Conformal_equivalence

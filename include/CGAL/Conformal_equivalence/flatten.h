@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 /// \file flatten.h
-/// The whole way in one call: from a mesh and conditions to texture coordinates
-/// (sections 3 and 4 of Springborn, Schroeder and Pinkall, 2008).
+/// The whole way in one call: from a mesh of any topology and conditions to texture coordinates
+/// (sections 3 to 5 of Springborn, Schroeder and Pinkall, 2008).
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_FLATTEN_H
 #define CGAL_CONFORMAL_EQUIVALENCE_FLATTEN_H
@@ -15,6 +15,7 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -33,6 +34,7 @@
 #include <cstdint>
 #include <limits>
 #include <new>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -43,34 +45,58 @@ namespace Conformal_equivalence {
 namespace internal {
 
 // One flattening: the stages one after the other, each a value that the next takes.
-// What the user gets is written by the caller, from `metric` and `layout`.
+// What the user gets is written by the caller, from `metric`, `cut` and `layout`.
 template <typename TriangleMesh>
 struct Flattening
 {
+  typedef std::uint32_t Index;
+
   Imported_mesh<TriangleMesh> mesh;
   Conformal_metric<double> metric;
+  Cut_graph cut;
   Layout<double> layout;
   Flattening_report<TriangleMesh> report;
 
   explicit Flattening(Imported_mesh<TriangleMesh> imported) : mesh(std::move(imported)) {}
 
-  // lengths, conditions, metric, layout, verdict; stops where one of them fails
+  // The whole surface: lengths, conditions, metric, cut, layout, verdict; stops where one of them fails.
   template <typename NamedParameters>
   void run(const NamedParameters& np)
+  {
+    run_stages(np, [&] { return true; }, [&] { find_cut(np); }, [&] { lay_out(np); });
+  }
+
+  // The same where the cut is given, and only the piece to which `face` belongs is laid out. It must be a disk, with all cones
+  // on its border; `no_disk` says so if not.
+  template <typename NamedParameters>
+  void run_along(Cut_graph given_cut, Index face, Status no_disk, const NamedParameters& np)
+  {
+    cut = std::move(given_cut);
+    run_stages(np, [&] { return check_cut(face, no_disk); }, [] {}, [&] { lay_out_piece(face, np); });
+  }
+
+private:
+  template <typename NamedParameters, typename Check, typename Find_cut, typename Lay_out>
+  void run_stages(const NamedParameters& np, Check check, Find_cut find_the_cut, Lay_out lay_it_out)
   {
     using parameters::choose_parameter;
     using parameters::get_parameter;
     auto given_visitor = choose_parameter<Default_visitor>(get_parameter(np, internal_np::visitor));
     auto& visitor = unwrap(given_visitor);
+    Statistics::Seconds& seconds = report.statistics.seconds;
     try
     {
-      timed(report.statistics.seconds.import, Stage::IMPORT, visitor, [&] { import_lengths(np); });
-      if(bool(report))
+      timed(seconds.import, Stage::IMPORT, visitor, [&] { import_lengths(np); });
+      if(bool(report) && read(np) && check())
         solve(np);
       if(bool(report))
-        timed(report.statistics.seconds.layout, Stage::LAYOUT, visitor, [&] { lay_out(np); });
+        timed(seconds.cut, Stage::CUT, visitor, find_the_cut);
       if(bool(report))
-        timed(report.statistics.seconds.verify, Stage::VERIFY, visitor, [&] { verify(); });
+        timed(seconds.layout, Stage::LAYOUT, visitor, lay_it_out);
+      if(bool(report))
+        timed(seconds.verify, Stage::VERIFY, visitor, [&] { verify(); });
+      if(bool(report))
+        tell_what_was_found();
     }
     catch(const std::bad_alloc&)
     {
@@ -78,7 +104,6 @@ struct Flattening
     }
   }
 
-private:
   template <typename Visitor, typename Work>
   static void timed(double& seconds, Stage stage, Visitor& visitor, Work work)
   {
@@ -95,27 +120,33 @@ private:
     const Statistics statistics = report.statistics;
     report = import_report(mesh);
     report.statistics = statistics;
-    if(bool(report) && !report.topology.is_disk())
-      report.status = Status::WRONG_TOPOLOGY;
+  }
+
+  // ---- Conditions and metric
+
+  template <typename NamedParameters>
+  bool read(const NamedParameters& np)
+  {
+    std::vector<Index> missing;
+    conditions_ = read_conditions(mesh, missing, np);
+    if(!missing.empty())
+    {
+      report.status = Status::MISSING_CONDITION;
+      name_elements(mesh, missing, {}, {}, report);
+      return false;
+    }
+    const Intrinsic_triangulation<double>& t = mesh.triangulation;
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v) && conditions_.is_cone(v))
+        cones_.push_back(v);
+    return true;
   }
 
   template <typename NamedParameters>
   void solve(const NamedParameters& np)
   {
-    using parameters::get_parameter;
-    using parameters::is_default_parameter;
-    std::vector<std::uint32_t> missing;
-    const Conformal_conditions<double> conditions = read_conditions(mesh, missing, np);
-    if(!missing.empty())
-    {
-      report.status = Status::MISSING_CONDITION;
-      name_elements(mesh, missing, {}, {}, report);
-      return;
-    }
-    if(refuse_cones(conditions))
-      return;
     const auto own_np = Conformal_equivalence::combine_named_parameters(np, initial_guess(np));
-    metric = compute_conformal_metric(std::move(mesh.triangulation), conditions, own_np);
+    metric = compute_conformal_metric(std::move(mesh.triangulation), conditions_, own_np);
     mesh.triangulation = metric.triangulation; // copied only now: the solver has freed its memory
 
     const Statistics::Seconds seconds = report.statistics.seconds;
@@ -124,27 +155,6 @@ private:
     report.status = metric.status;
     report.amount = metric.amount;
     name_elements(mesh, metric.vertices, metric.edges, metric.faces, report);
-  }
-
-  // A disk with a cone inside has no layout without a cut.
-  bool refuse_cones(const Conformal_conditions<double>& conditions)
-  {
-    std::vector<std::uint32_t> cones;
-    const Intrinsic_triangulation<double>& t = mesh.triangulation;
-    for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
-    {
-      if(t.is_isolated_vertex(v) || t.is_border_vertex(v))
-        continue;
-      const bool is_flat = !conditions.is_fixed(v) && conditions.angle_sum(v).is_exact()
-                        && conditions.angle_sum(v).units == 2 * Exact_angle<double>::units_of_pi;
-      if(!is_flat)
-        cones.push_back(v);
-    }
-    if(cones.empty())
-      return false;
-    report.status = Status::NOT_AVAILABLE;
-    name_elements(mesh, cones, {}, {}, report);
-    return true;
   }
 
   // The map of initial u is keyed by descriptors here, by indices in the solver.
@@ -157,18 +167,108 @@ private:
     else
     {
       const auto map = get_parameter(np, internal_np::conformal_initial_u);
-      const auto by_index = [this, map](std::uint32_t v) { return double(get(map, mesh.vertex(v))); };
-      return parameters::initial_log_scale_factor_map(boost::make_function_property_map<std::uint32_t, double>(by_index));
+      const auto by_index = [this, map](Index v) { return double(get(map, mesh.vertex(v))); };
+      return parameters::initial_log_scale_factor_map(boost::make_function_property_map<Index, double>(by_index));
     }
   }
+
+  // ---- Cut
+
+  template <typename NamedParameters>
+  void find_cut(const NamedParameters& np)
+  {
+    const bool is_prescribed = !parameters::is_default_parameter<NamedParameters, internal_np::conformal_edge_is_seam_t>::value;
+    if(report.topology.is_disk() && cones_.empty() && !is_prescribed)
+      return; // nothing to do
+    cut = compute_cut_graph(mesh.triangulation, cones_, seam_parameters(np));
+    if(bool(cut))
+      return;
+    report.status = cut.status;
+    name_elements(mesh, {}, cut.edges, cut.faces, report);
+  }
+
+  // The maps are keyed by descriptors here, by indices in compute_cut_graph().
+  template <typename NamedParameters>
+  auto seam_parameters(const NamedParameters& np) const
+  {
+    using parameters::get_parameter;
+    using parameters::is_default_parameter;
+    const auto by_index = [this](auto map)
+    {
+      typedef typename boost::property_traits<decltype(map)>::value_type Value;
+      return boost::make_function_property_map<Index, Value>([this, map](Index e) -> Value { return get(map, mesh.edge(e)); });
+    };
+    const auto no = boost::make_function_property_map<Index, bool>([](Index) { return false; });
+    const auto seam = [&]
+    {
+      if constexpr(is_default_parameter<NamedParameters, internal_np::conformal_edge_is_seam_t>::value)
+        return parameters::edge_is_seam_map(no);
+      else
+        return parameters::edge_is_seam_map(by_index(get_parameter(np, internal_np::conformal_edge_is_seam)));
+    }();
+    const auto constrained = [&]
+    {
+      if constexpr(is_default_parameter<NamedParameters, internal_np::edge_is_constrained_t>::value)
+        return seam.edge_is_constrained_map(no);
+      else
+        return seam.edge_is_constrained_map(by_index(get_parameter(np, internal_np::edge_is_constrained)));
+    }();
+    if constexpr(is_default_parameter<NamedParameters, internal_np::conformal_seam_weight_t>::value)
+      return constrained;
+    else
+      return constrained.seam_weight_map(by_index(get_parameter(np, internal_np::conformal_seam_weight)));
+  }
+
+  // Is the piece that a given cut leaves at `face` a disk with all cones on its border?
+  bool check_cut(Index face, Status no_disk)
+  {
+    const Intrinsic_triangulation<double>& t = mesh.triangulation;
+    const Intrinsic_triangulation<double> open = cut_open(t, cut);
+    const Surface_components pieces = connected_components(open);
+    const Index piece = pieces.component_of_vertex[open.origin(3 * face)];
+    if(!pieces.components[piece].is_disk())
+    {
+      report.status = no_disk;
+      report.topology = surface_topology(pieces.components[piece]);
+      return false;
+    }
+    std::vector<Index> missed;
+    for(Index v : cones_)
+    {
+      const Index copy = open.origin(t.vertex_halfedge(v));
+      if(pieces.component_of_vertex[copy] == piece && !open.is_border_vertex(copy))
+        missed.push_back(v);
+    }
+    if(missed.empty())
+      return true;
+    report.status = Status::SEAM_MISSES_CONE;
+    name_elements(mesh, missed, {}, {}, report);
+    return false;
+  }
+
+  // ---- Layout
 
   template <typename NamedParameters>
   void lay_out(const NamedParameters& np)
   {
-    layout = compute_layout(mesh.triangulation, metric, Cut_graph(),
+    layout = compute_layout(mesh.triangulation, metric, cut,
                             Conformal_equivalence::combine_named_parameters(np, parameters::layout_frame(frame(np))));
-    report.status = layout.status == Status::OK ? report.status : layout.status;
     report.layout_length_error = layout.length_error;
+    faces_laid_out_.resize(mesh.triangulation.number_of_faces());
+    std::iota(faces_laid_out_.begin(), faces_laid_out_.end(), Index(0));
+  }
+
+  template <typename NamedParameters>
+  void lay_out_piece(Index face, const NamedParameters& np)
+  {
+    const Wedges wedges = find_wedges(mesh.triangulation, cut);
+    std::vector<Piece> pieces = find_pieces(mesh.triangulation, cut, wedges);
+    const auto is_elsewhere = [&](const Piece& piece)
+      { return !std::binary_search(piece.faces.begin(), piece.faces.end(), face); };
+    pieces.erase(std::remove_if(pieces.begin(), pieces.end(), is_elsewhere), pieces.end());
+    layout = lay_out_pieces(metric, cut, wedges, pieces, frame(np));
+    report.layout_length_error = layout.length_error;
+    faces_laid_out_ = std::move(pieces.front().faces);
   }
 
   template <typename NamedParameters>
@@ -182,17 +282,19 @@ private:
   Layout_frame by_index(Layout_frame frame) const { return frame; }
 
   template <typename Vertex>
-  Pinned_frame<std::uint32_t> by_index(const Pinned_frame<Vertex>& frame) const
+  Pinned_frame<Index> by_index(const Pinned_frame<Vertex>& frame) const
   {
     return {mesh.index_of_vertex(frame.first), frame.first_point, mesh.index_of_vertex(frame.second), frame.second_point};
   }
 
+  // ---- Verdict
+
   // Every triangle of the layout, as rounded, is exactly positive, or named.
   void verify()
   {
-    std::vector<std::uint32_t> flipped;
-    const auto point = [&](std::uint32_t h) { return Plane_point(layout.corner[h][0], layout.corner[h][1]); };
-    for(std::uint32_t f = 0; f < mesh.triangulation.number_of_faces(); ++f)
+    std::vector<Index> flipped;
+    const auto point = [&](Index h) { return Plane_point(layout.corner[h][0], layout.corner[h][1]); };
+    for(Index f : faces_laid_out_)
       if(triangle_orientation({{point(3 * f), point(3 * f + 1), point(3 * f + 2)}}) != CGAL::LEFT_TURN)
         flipped.push_back(f);
     if(flipped.empty())
@@ -200,7 +302,53 @@ private:
     report.status = Status::NOT_INJECTIVE;
     name_elements(mesh, {}, {}, flipped, report);
   }
+
+  void tell_what_was_found()
+  {
+    for(Index v : cones_)
+      report.cones.push_back({mesh.vertex(v), mesh.index_of_vertex(mesh.vertex(v)),
+                              conditions_.is_fixed(v) ? angle_sum(v) : conditions_.angle_sum(v).radians(), conditions_.is_fixed(v)});
+    for(const Transition<double>& motion : layout.transitions)
+      report.transitions.push_back({mesh.halfedge(motion.halfedge), motion.rotation, motion.translation});
+    for(Period_lattice<double> lattice : layout.lattices)
+    {
+      lattice.face = mesh.position_of_face(Index(lattice.face));
+      report.lattices.push_back(lattice);
+    }
+  }
+
+  // The angle sum at `v` in the metric found.
+  double angle_sum(Index v) const
+  {
+    double result = 0;
+    mesh.triangulation.for_each_outgoing(v, [&](Index h)
+    {
+      const Incircle_form<Double_double> triangle = wide_triangle(mesh.triangulation, metric.scale_factors, h / 3);
+      result += 2 * std::atan2(to_double(triangle.r), to_double(triangle.tangent[(h + 1) % 3]));
+    });
+    return result;
+  }
+
+  Conformal_conditions<double> conditions_;
+  std::vector<Index> cones_;           // in increasing order
+  std::vector<Index> faces_laid_out_;
 };
+
+// The faces of `tm`, in charts if there is a map of patches: edges between different patches become borders.
+template <typename TriangleMesh, typename NamedParameters>
+Imported_mesh<TriangleMesh> import_charts(const TriangleMesh& tm, const NamedParameters& np)
+{
+  CGAL_USE(np);
+  if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::face_patch_t>::value)
+    return Imported_mesh<TriangleMesh>(tm);
+  else
+  {
+    const auto patch = parameters::get_parameter(np, internal_np::face_patch);
+    const auto is_between_charts = [&](typename boost::graph_traits<TriangleMesh>::edge_descriptor e)
+      { return !(get(patch, face(halfedge(e, tm), tm)) == get(patch, face(opposite(halfedge(e, tm), tm), tm))); };
+    return Imported_mesh<TriangleMesh>(tm, faces(tm), is_between_charts);
+  }
+}
 
 // Writes u, weights and scaled lengths to the maps that were given for them.
 template <typename TriangleMesh, typename NamedParameters>
@@ -244,10 +392,29 @@ void write_corners(const Imported_mesh<TriangleMesh>& mesh, const Layout<double>
     for(std::uint32_t h = 3 * f; h < 3 * f + 3; ++h, hd = next(hd, mesh.mesh()))
     {
       put(uv, hd, point(h));
-      if(t.is_border(h))
+      if(t.is_border(h) && CGAL::is_border(opposite(hd, mesh.mesh()), mesh.mesh())) // and not between charts
         put(uv, opposite(hd, mesh.mesh()), point(t.previous(h)));
     }
   }
+}
+
+// Writes the seam: the edges that were cut, and those between charts.
+template <typename TriangleMesh, typename NamedParameters>
+void write_seam(const Flattening<TriangleMesh>& flattening, const NamedParameters& np)
+{
+  CGAL_USE(np);
+  if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_edge_is_seam_t>::value)
+  {
+    const Imported_mesh<TriangleMesh>& mesh = flattening.mesh;
+    for(std::uint32_t e = 0; e < mesh.triangulation.number_of_edges(); ++e)
+    {
+      const auto ed = mesh.edge(e);
+      const bool is_seam = mesh.triangulation.is_border_edge(e) ? !CGAL::is_border(ed, mesh.mesh()) : flattening.cut[e];
+      put(parameters::get_parameter(np, internal_np::conformal_edge_is_seam), ed, is_seam);
+    }
+  }
+  else
+    CGAL_USE(flattening);
 }
 
 template <typename TriangleMesh, typename NamedParameters>
@@ -263,12 +430,26 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 
 /// \ingroup PkgConformalEquivalenceDoors
 ///
-/// flattens a triangle mesh: finds the flat metric that is conformally equivalent to the mesh's and
-/// meets the conditions, and lays it out in the plane. The result preserves length cross ratios
-/// to rounding, and no triangle is flipped, decided exactly on the coordinates written.
+/// flattens a triangle mesh of any topology: finds the metric that is conformally equivalent to the mesh's, is flat except at cones, and
+/// meets the conditions; cuts the surface open where that is needed, and lays it out in the plane. The result preserves length cross ratios
+/// to rounding, the two sides of every seam edge have equal lengths, and no triangle is flipped, decided exactly on the coordinates
+/// written.
 ///
-/// This version takes topological disks (isolated vertices are carried through untouched)
-/// without interior cones, and keeps the triangulation.
+/// The mesh may be closed or have any number of borders, none of which is filled, any number of handles, and any number of
+/// components, each of which is a problem of its own. The layouts of the components do not overlap one another. Isolated vertices
+/// are carried through untouched. The triangulation is kept.
+///
+/// *Cones* are interior vertices whose angle sum is prescribed (`cone_angle_map`) and not 2 pi, or where u is prescribed instead
+/// (`vertex_is_constrained_map`: a free cone). On a component where no u is prescribed, the curvatures 2 pi - angle at interior vertices
+/// and pi - angle on borders sum up to 2 pi chi (Gauss-Bonnet). So a closed surface needs cones, at least three on a sphere,
+/// unless it is a torus: that has a flat metric without cones, and a lattice of periods, which the report holds.
+///
+/// *Charts*: with `face_patch_map` every maximal set of faces of one patch that is connected through edges is a surface of its own, and the edges between
+/// patches are borders. Maps of vertices hold for all charts at a vertex; what is written to one is what was found for one of them (for natural
+/// borders, u = 0 for all).
+///
+/// A `Seam_mesh` is taken for the surface that it is, cut open, with maps of its own vertices and edges; to use its seam
+/// just for cutting, see `Surface_mesh_parameterization::Conformal_equivalence_parameterizer_3`.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam HalfedgeUVMap a model of `WritablePropertyMap` with key type
@@ -278,17 +459,39 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 ///
 /// \param tm a triangle mesh
 /// \param uv receives, at every halfedge `h`, where `target(h, tm)` lies in the triangle of `face(h, tm)`; a
-///        border halfedge receives what `prev(opposite(h, tm), tm)` does
+///        border halfedge receives what `prev(opposite(h, tm), tm)` does. So `uv[target(hd, seam_mesh)]` is what it should be for the `Seam_mesh`
+///        that `make_seam_mesh()` makes of the seam.
 /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below,
 ///        beginning with one of this package
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
 ///   \cgalParamNBegin{edge_length_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
+///   \cgalParamNBegin{face_patch_map}
+///     \cgalParamDescription{the patches of the faces}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%face_descriptor` and any value type with `==`}
+///     \cgalParamDefault{none: no edge is a border that is not one of the mesh}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{border_angle_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamNEnd
 ///   \cgalParamNBegin{cone_angle_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_is_constrained_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamNEnd
 ///   \cgalParamNBegin{prescribed_log_scale_factor_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamNEnd
+///   \cgalParamNBegin{edge_is_seam_map}
+///     \cgalParamDescription{on entry, `true` where the surface is to be cut in any case; receives the whole seam: the edges cut, and those between charts}
+///     \cgalParamType{a read-write property map with key type `boost::graph_traits<TriangleMesh>::%edge_descriptor` and value type `bool`, copies of which share their values}
+///     \cgalParamDefault{`false` for all edges}
+///     \cgalParamExtra{Border edges are never seam edges, whatever is given for them.}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{edge_is_constrained_map}
+///     \cgalParamDescription{`true` where the surface must not be cut}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%edge_descriptor` and value type `bool`}
+///     \cgalParamDefault{`false` for all edges}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{seam_weight_map}
+///     \cgalParamDescription{what it costs to cut an edge, see `compute_cut_graph()`}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%edge_descriptor` and a value type convertible to `double`}
+///     \cgalParamDefault{the lengths}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{initial_log_scale_factor_map}
 ///     \cgalParamDescription{where the solver begins}
 ///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to `double`}
@@ -324,10 +527,15 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \return the report. Maps are written iff it is a success. Statuses: those of `import_mesh()` and
-///         `Conformal_metric_solver::solve()`, `WRONG_TOPOLOGY`, `MISSING_CONDITION` (vertices), `NOT_AVAILABLE` (vertices:
-///         interior cones), and `NOT_INJECTIVE` (faces: triangles that rounding has made flat or flipped, where
+/// \return the report, with the cones, the motions across the seam edges, and the lattices of tori. Maps are written iff it is a success.
+///         Statuses: those of `import_mesh()` and `Conformal_metric_solver::solve()`, `MISSING_CONDITION` (vertices), those of
+///         `compute_cut_graph()` (edges, faces), and `NOT_INJECTIVE` (faces: triangles that rounding has made flat or flipped, where
 ///         scale factors range too far for `double`).
+///
+/// Time is that of the solver, see `Conformal_metric_solver::solve()`, and O(n log n) for the cut; all else is linear.
+///
+/// \sa `CGAL::Conformal_equivalence::make_seam_mesh()`
+/// \sa `CGAL::Conformal_equivalence::verify_layout()`
 template <typename TriangleMesh, typename HalfedgeUVMap,
           typename NamedParameters = parameters::Default_named_parameters>
 Flattening_report<TriangleMesh> flatten(const TriangleMesh& tm,
@@ -335,13 +543,14 @@ Flattening_report<TriangleMesh> flatten(const TriangleMesh& tm,
                                         const NamedParameters& np = parameters::default_values())
 {
   const internal::Stopwatch stopwatch;
-  internal::Flattening<TriangleMesh> flattening{Imported_mesh<TriangleMesh>(tm)};
+  internal::Flattening<TriangleMesh> flattening{internal::import_charts(tm, np)};
   flattening.report.statistics.seconds.import = stopwatch.seconds();
   flattening.run(np);
   if(bool(flattening.report))
   {
     internal::write_corners(flattening.mesh, flattening.layout, uv);
     internal::write_metric(flattening, np);
+    internal::write_seam(flattening, np);
   }
   internal::write_report(flattening.report, np);
   return flattening.report;

@@ -8,12 +8,16 @@
 //  - vertices and faces are those of the input;
 //  - each interior edge has the same length cross ratio (4) in the layout as in space;
 //  - both sides of an interior edge have the same length in the layout;
+//  - the angles at each interior vertex sum up to 2 pi, at a cone to its prescribed angle, if there is one;
+//  - pieces of the layout (of faces that lie side by side there) have bounding boxes that do not overlap;
 //  - border edges have the same scale, where the border is to keep its lengths;
 //  - every triangle is positively oriented, by an exact predicate;
 //  - weights w, if any, are those of (2): the scale of the edge ij is c / sqrt(w_i w_j).
 //
 // A relative tolerance t on a length l in a layout of diameter D reads max(t, 16 * 2^-53 * D / l): no
-// coordinates of type double can promise more.
+// coordinates of type double can promise more. A tolerance on the sum of n angles, whose shortest edge is l long, reads
+// max(t, 16 n * 2^-53 * D / l): each end of an edge may be off by sqrt(2) * 2^-53 * D, each angle by sqrt(32) * 2^-53 * D / l,
+// and three times that if the coordinates were divided by weights.
 
 #ifndef CGAL_TEST_CONFORMAL_EQUIVALENCE_CHECK_FLATTENING_H
 #define CGAL_TEST_CONFORMAL_EQUIVALENCE_CHECK_FLATTENING_H
@@ -28,6 +32,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -151,9 +156,37 @@ inline Surface read_surface(const std::string& file)
   return file.size() > 4 && file.substr(file.size() - 4) == ".off" ? read_off(in) : read_obj(in);
 }
 
+// For each cone, by its vertex: the prescribed angle in radians, or none (a free cone).
+typedef std::map<std::size_t, std::optional<Real> > Cones;
+
+const Real pi = 3.141592653589793238462643383279502884L;
+
+// Lines `vertex-index angle-in-degrees`, or `vertex-index free`; comments begin with #.
+inline Cones read_cones(std::istream& in)
+{
+  Cones cones;
+  for(std::string text; std::getline(in, text); )
+  {
+    text = text.substr(0, text.find('#'));
+    if(count_words(text) == 0)
+      continue;
+    std::istringstream line(text);
+    std::size_t vertex;
+    std::string angle;
+    if(! (line >> vertex >> angle) || count_words(text) != 2)
+      throw std::runtime_error("not a cone: " + text);
+    std::optional<Real> value;
+    if(angle != "free")
+      value = std::stold(angle) / 180 * pi;
+    if(! cones.emplace(vertex, value).second)
+      throw std::runtime_error("a cone is given twice: " + text);
+  }
+  return cones;
+}
+
 struct Tolerances
 {
-  Real cross_ratio = 1e-8, border_scale = 1e-9, weights = 1e-8;
+  Real cross_ratio = 1e-8, two_sides = 1e-10, border_scale = 1e-9, weights = 1e-8, angle = 1e-8;
   bool border_keeps_its_lengths = true;
 };
 
@@ -175,13 +208,15 @@ struct Worst
 struct Verdict
 {
   bool same_mesh = false;
-  Worst cross_ratio, two_sides, border_scale, weights;
-  std::size_t interior_edges = 0, border_edges = 0, not_positive_triangles = 0;
+  Worst cross_ratio, two_sides, border_scale, weights, angle, cone_angle;
+  std::size_t interior_edges = 0, border_edges = 0, interior_vertices = 0, not_positive_triangles = 0;
+  std::size_t cones = 0, free_cones = 0, cones_not_inside = 0, pieces = 0, overlapping_pieces = 0;
 
   bool is_good() const
   {
     return same_mesh && cross_ratio.is_good() && two_sides.is_good() && border_scale.is_good()
-        && weights.is_good() && not_positive_triangles == 0;
+        && weights.is_good() && angle.is_good() && cone_angle.is_good() && cones_not_inside == 0
+        && not_positive_triangles == 0 && overlapping_pieces == 0;
   }
 };
 
@@ -194,6 +229,10 @@ inline std::ostream& operator<<(std::ostream& out, const Verdict& v)
   print("two sides of an edge, largest relative difference: ", v.two_sides);
   print("border, spread of the scale: ", v.border_scale);
   print("weights, spread of the scale: ", v.weights);
+  print("angle sums inside, largest difference from 2 pi: ", v.angle);
+  print("cones, largest difference from the angle: ", v.cone_angle);
+  out << "cones: " << v.cones << ", free: " << v.free_cones << ", not interior vertices: " << v.cones_not_inside << '\n'
+      << "pieces: " << v.pieces << ", pairs whose boxes overlap: " << v.overlapping_pieces << '\n';
   return out << "triangles not positively oriented: " << v.not_positive_triangles << " (exact)\n"
              << (v.is_good() ? "GOOD" : "BAD") << '\n';
 }
@@ -201,8 +240,8 @@ inline std::ostream& operator<<(std::ostream& out, const Verdict& v)
 class Checker
 {
 public:
-  Checker(const Surface& input, const Surface& output, const Tolerances& tolerances)
-    : m_input(input), m_output(output), m_tolerances(tolerances)
+  Checker(const Surface& input, const Surface& output, const Tolerances& tolerances, const Cones& cones)
+    : m_input(input), m_output(output), m_tolerances(tolerances), m_cones(cones)
   {
     m_verdict.same_mesh = input.points == output.points && input.faces == output.faces && ! output.texture.empty();
     if(! m_verdict.same_mesh)
@@ -210,7 +249,10 @@ public:
     divide_by_weights();
     check_orientations();
     measure_lengths();
+    pair_edges();
     check_edges();
+    check_angles();
+    check_pieces();
     if(output.has_weights)
       check_weights();
   }
@@ -275,32 +317,42 @@ private:
   // the edge k of the face f, seen from there: (length towards the apex) / (length from it)
   static Real half_cross_ratio(const Lengths& l, std::size_t k) { return l[(k + 1) % 3] / l[(k + 2) % 3]; }
 
+  // m_other[3 f + k] is the other side of the edge k of the face f
+  void pair_edges()
+  {
+    std::unordered_map<std::uint64_t, std::size_t> side_of; // of each directed edge
+    const auto key = [](std::size_t i, std::size_t j) { return (std::uint64_t(i) << 32) | std::uint64_t(j); };
+    side_of.reserve(3 * m_input.faces.size());
+    for(std::size_t s = 0; s < 3 * m_input.faces.size(); ++s)
+      side_of[key(vertex(s), vertex(next(s)))] = s;
+    for(std::size_t s = 0; s < 3 * m_input.faces.size(); ++s)
+    {
+      const auto other = side_of.find(key(vertex(next(s)), vertex(s)));
+      m_other.push_back(other == side_of.end() ? none : other->second);
+    }
+  }
+
+  static std::size_t next(std::size_t side) { return side - side % 3 + (side + 1) % 3; }
+  std::size_t vertex(std::size_t side) const { return m_input.faces[side / 3][side % 3]; }
+  const std::array<double, 2>& place(std::size_t side) const { return m_layout[m_output.corners[side / 3][side % 3]]; }
+
   void check_edges()
   {
-    std::unordered_map<std::uint64_t, std::size_t> corner_of; // 3 f + k for each directed edge
-    const auto key = [](std::size_t i, std::size_t j) { return (std::uint64_t(i) << 32) | std::uint64_t(j); };
-    corner_of.reserve(3 * m_input.faces.size());
-    for(std::size_t f = 0; f < m_input.faces.size(); ++f)
-      for(std::size_t k = 0; k < 3; ++k)
-        corner_of[key(m_input.faces[f][k], m_input.faces[f][(k + 1) % 3])] = 3 * f + k;
-
     Real least = std::numeric_limits<Real>::infinity(), largest = 0, loosest = 0;
-    for(std::size_t f = 0; f < m_input.faces.size(); ++f)
-      for(std::size_t k = 0; k < 3; ++k)
+    for(std::size_t s = 0; s < m_other.size(); ++s)
+    {
+      const std::size_t f = s / 3, k = s % 3;
+      if(m_other[s] == none)
       {
-        const std::size_t i = m_input.faces[f][k], j = m_input.faces[f][(k + 1) % 3];
-        const auto other = corner_of.find(key(j, i));
-        if(other == corner_of.end())
-        {
-          ++m_verdict.border_edges;
-          const Real scale = m_out[f][k] / m_in[f][k];
-          least = (std::min)(least, scale);
-          largest = (std::max)(largest, scale);
-          loosest = (std::max)(loosest, tolerance(m_tolerances.border_scale, m_out[f][k]));
-        }
-        else if(i < j)
-          check_interior_edge(f, k, other->second / 3, other->second % 3);
+        ++m_verdict.border_edges;
+        const Real scale = m_out[f][k] / m_in[f][k];
+        least = (std::min)(least, scale);
+        largest = (std::max)(largest, scale);
+        loosest = (std::max)(loosest, tolerance(m_tolerances.border_scale, m_out[f][k]));
       }
+      else if(s < m_other[s])
+        check_interior_edge(f, k, m_other[s] / 3, m_other[s] % 3);
+    }
     if(m_tolerances.border_keeps_its_lengths && m_verdict.border_edges != 0)
       m_verdict.border_scale.insert(largest / least - 1, loosest);
   }
@@ -314,7 +366,7 @@ private:
     const Real in = half_cross_ratio(m_in[f], k) * half_cross_ratio(m_in[g], m);
     const Real out = half_cross_ratio(a, k) * half_cross_ratio(b, m);
     m_verdict.cross_ratio.insert(std::abs(out / in - 1), tolerance(m_tolerances.cross_ratio, shortest));
-    m_verdict.two_sides.insert(std::abs(a[k] / b[m] - 1), tolerance(m_tolerances.border_scale, (std::min)(a[k], b[m])));
+    m_verdict.two_sides.insert(std::abs(a[k] / b[m] - 1), tolerance(m_tolerances.two_sides, (std::min)(a[k], b[m])));
   }
 
   void check_weights()
@@ -334,18 +386,135 @@ private:
         m_verdict.weights.insert(std::abs(log_scale(f, k) - sum / Real(n)), tolerance(m_tolerances.weights, m_out[f][k]));
   }
 
+  struct Vertex
+  {
+    Real angle = 0, shortest = std::numeric_limits<Real>::infinity();
+    std::size_t faces = 0;
+    bool is_on_border = false;
+    bool is_interior() const { return faces != 0 && ! is_on_border; }
+  };
+
+  // The signed angle at the corner where the side `s` begins.
+  Real angle(std::size_t s) const
+  {
+    const auto &p = place(s), &q = place(next(s)), &r = place(next(next(s)));
+    const Real a = Real(q[0]) - p[0], b = Real(q[1]) - p[1], c = Real(r[0]) - p[0], d = Real(r[1]) - p[1];
+    return std::atan2(a * d - b * c, a * c + b * d);
+  }
+
+  void check_angles()
+  {
+    std::vector<Vertex> vertices(m_input.points.size());
+    for(std::size_t s = 0; s < m_other.size(); ++s)
+    {
+      Vertex& v = vertices[vertex(s)];
+      const Lengths& l = m_out[s / 3];
+      v.angle += angle(s);
+      v.shortest = (std::min)({v.shortest, l[s % 3], l[(s + 2) % 3]});
+      ++v.faces;
+      if(m_other[s] == none)
+        v.is_on_border = vertices[vertex(next(s))].is_on_border = true;
+    }
+    for(std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      const Vertex& v = vertices[i];
+      const auto cone = m_cones.find(i);
+      if(! v.is_interior())
+        continue;
+      ++m_verdict.interior_vertices;
+      const Real bound = (std::max)(m_tolerances.angle, Real(v.faces) * tolerance(0, v.shortest));
+      if(cone == m_cones.end())
+        m_verdict.angle.insert(std::abs(v.angle - 2 * pi), bound);
+      else if(cone->second)
+        m_verdict.cone_angle.insert(std::abs(v.angle - *cone->second), bound);
+    }
+    m_verdict.cones = m_cones.size();
+    for(const auto& cone : m_cones)
+    {
+      m_verdict.free_cones += ! cone.second;
+      m_verdict.cones_not_inside += cone.first >= vertices.size() || ! vertices[cone.first].is_interior();
+    }
+  }
+
+  struct Box
+  {
+    std::array<double, 2> lower{{HUGE_VAL, HUGE_VAL}}, upper{{-HUGE_VAL, -HUGE_VAL}};
+
+    void insert(const std::array<double, 2>& p)
+    {
+      for(std::size_t k = 0; k < 2; ++k)
+      {
+        lower[k] = (std::min)(lower[k], p[k]);
+        upper[k] = (std::max)(upper[k], p[k]);
+      }
+    }
+    bool overlaps(const Box& b, std::size_t k) const { return lower[k] < b.upper[k] && b.lower[k] < upper[k]; }
+  };
+
+  bool sides_coincide(std::size_t s) const
+  {
+    const std::size_t o = m_other[s];
+    return o != none && place(s) == place(next(o)) && place(next(s)) == place(o);
+  }
+
+  std::vector<Box> boxes_of_pieces() const
+  {
+    std::vector<Box> boxes;
+    std::vector<bool> is_seen(m_input.faces.size(), false);
+    std::vector<std::size_t> stack;
+    const auto visit = [&](std::size_t f)
+    {
+      if(! is_seen[f])
+        stack.push_back(f);
+      is_seen[f] = true;
+    };
+    for(std::size_t first = 0; first < is_seen.size(); ++first)
+    {
+      if(is_seen[first])
+        continue;
+      boxes.emplace_back();
+      for(visit(first); ! stack.empty(); )
+      {
+        const std::size_t f = stack.back();
+        stack.pop_back();
+        for(std::size_t s = 3 * f; s < 3 * f + 3; ++s)
+        {
+          boxes.back().insert(place(s));
+          if(sides_coincide(s))
+            visit(m_other[s] / 3);
+        }
+      }
+    }
+    return boxes;
+  }
+
+  void check_pieces()
+  {
+    std::vector<Box> boxes = boxes_of_pieces();
+    m_verdict.pieces = boxes.size();
+    std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.lower[0] < b.lower[0]; });
+    for(std::size_t i = 0; i < boxes.size(); ++i)
+      for(std::size_t j = i + 1; j < boxes.size() && boxes[j].lower[0] < boxes[i].upper[0]; ++j)
+        m_verdict.overlapping_pieces += boxes[i].overlaps(boxes[j], 0) && boxes[i].overlaps(boxes[j], 1);
+  }
+
+  static constexpr std::size_t none = std::size_t(-1);
+
   const Surface& m_input;
   const Surface& m_output;
   Tolerances m_tolerances;
+  Cones m_cones;
   Verdict m_verdict;
   std::vector<std::array<double, 2> > m_layout;
   std::vector<Lengths> m_in, m_out;
+  std::vector<std::size_t> m_other;
   Real m_diameter = 0;
 };
 
-inline Verdict check_flattening(const Surface& input, const Surface& output, const Tolerances& tolerances = Tolerances())
+inline Verdict check_flattening(const Surface& input, const Surface& output, const Tolerances& tolerances = Tolerances(),
+                                const Cones& cones = Cones())
 {
-  return Checker(input, output, tolerances).verdict();
+  return Checker(input, output, tolerances, cones).verdict();
 }
 
 } // namespace checking

@@ -168,11 +168,12 @@ checking::Surface layout_of(const TriangleMesh& tm, const Corner& corner)
 }
 
 template <typename TriangleMesh, typename HalfedgeUVMap>
-checking::Verdict judge(const TriangleMesh& tm, HalfedgeUVMap uv, bool border_keeps_its_lengths = true)
+checking::Verdict judge(const TriangleMesh& tm, HalfedgeUVMap uv, bool border_keeps_its_lengths = true,
+                        const checking::Cones& cones = checking::Cones())
 {
   checking::Tolerances tolerances;
   tolerances.border_keeps_its_lengths = border_keeps_its_lengths;
-  return checking::check_flattening(surface_of(tm), layout_of(tm, [&](auto h) { return get(uv, h); }), tolerances);
+  return checking::check_flattening(surface_of(tm), layout_of(tm, [&](auto h) { return get(uv, h); }), tolerances, cones);
 }
 
 template <typename TriangleMesh, typename VertexUVMap>

@@ -8,6 +8,7 @@
 // On each component, with F the vertices of fixed u:
 //   F empty:     sum (2 pi - Theta^) + sum over border (pi - Theta^) = 2 pi chi (Gauss-Bonnet);
 //   F not empty: the same formula leaves F a total angle, which must be positive.
+// A closed surface without cones other than a torus is told apart from a mere violation.
 // And 0 < Theta^ < pi * (number of triangles) at every vertex.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_FEASIBILITY_H
@@ -31,6 +32,7 @@ struct Feasibility
   Status status = Status::OK;
   double amount = 0;
   std::vector<std::uint32_t> vertices;
+  std::vector<std::uint32_t> faces; // one of every closed surface that lacks cones
   double angle_defect_spread = 0;
 };
 
@@ -43,7 +45,8 @@ struct Angle_balance
 {
   std::int64_t units = 0;      // of pi / 2520
   Double_double rest = 0;      // radians
-  std::size_t number_of_fixed = 0;
+  std::vector<std::uint32_t> fixed;   // vertices of fixed u
+  std::vector<std::uint32_t> curved;  // vertices whose target is neither 2 pi, inside, nor pi, on the border
   std::vector<std::uint32_t> inexact; // vertices whose target is no exact multiple
 
   double radians() const
@@ -69,14 +72,17 @@ std::vector<Angle_balance<NT> > angle_balances(const Intrinsic_triangulation<NT>
     if(t.is_isolated_vertex(v))
       continue;
     Angle_balance<NT>& b = balance[pieces.component_of_vertex[v]];
-    b.units += t.is_border_vertex(v) ? pi : 2 * pi;
+    const std::int64_t flat = t.is_border_vertex(v) ? pi : 2 * pi;
+    b.units += flat;
     if(conditions.is_fixed(v))
     {
-      ++b.number_of_fixed;
+      b.fixed.push_back(v);
       continue;
     }
     const Exact_angle<NT>& angle = conditions.angle_sum(v);
     b.units -= angle.units;
+    if(angle.units != flat || !angle.is_exact())
+      b.curved.push_back(v);
     b.rest -= Double_double(static_cast<double>(angle.rest));
     if(!angle.is_exact())
       b.inexact.push_back(v);
@@ -125,6 +131,47 @@ Feasibility check_angle_ranges(const Intrinsic_triangulation<NT>& t, const Confo
   return result;
 }
 
+// A closed surface without any cone, which is flat only if it is a torus.
+template <typename NT>
+bool lacks_cones(const Surface_components::Component& component, const Angle_balance<NT>& balance)
+{
+  return component.number_of_borders == 0 && balance.fixed.empty() && balance.curved.empty()
+      && component.euler_characteristic() != 0;
+}
+
+template <typename NT>
+Feasibility check_for_cones(const Surface_components& pieces, const std::vector<Angle_balance<NT> >& balances)
+{
+  Feasibility result;
+  for(std::size_t c = 0; c < balances.size(); ++c)
+  {
+    const Surface_components::Component& component = pieces.components[c];
+    if(!lacks_cones(component, balances[c]))
+      continue;
+    if(result.faces.empty())
+      result.amount = 2 * Number_constants<double>::pi() * double(component.euler_characteristic());
+    result.status = Status::MISSING_CONDITION;
+    result.faces.push_back(component.first_face);
+  }
+  return result;
+}
+
+// The error of a component whose angles do not fit: the vertices that could be given others.
+template <typename NT>
+Feasibility unbalanced(const Intrinsic_triangulation<NT>& t, const Surface_components& pieces,
+                       std::size_t c, const Angle_balance<NT>& balance)
+{
+  Feasibility result;
+  result.status = balance.fixed.empty() ? Status::GAUSS_BONNET_VIOLATED : Status::NO_ANGLE_LEFT;
+  result.amount = balance.radians();
+  result.vertices = balance.fixed.empty() ? balance.curved : balance.fixed;
+  if(result.vertices.empty())
+    for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+      if(t.is_border_vertex(v) && pieces.component_of_vertex[v] == c)
+        result.vertices.push_back(v);
+  return result;
+}
+
 // Checks all of the above; adds negligible defects to the targets that are not
 // exact multiples of pi / 2520.
 template <typename NT>
@@ -136,18 +183,19 @@ Feasibility make_feasible(const Intrinsic_triangulation<NT>& t, const Surface_co
     result = check_angle_ranges(t, conditions);
   if(result.status != Status::OK)
     return result;
+  const std::vector<Angle_balance<NT> > balances = angle_balances(t, pieces, conditions);
+  result = check_for_cones(pieces, balances);
+  if(result.status != Status::OK)
+    return result;
 
-  for(const Angle_balance<NT>& balance : angle_balances(t, pieces, conditions))
+  for(std::size_t c = 0; c < balances.size(); ++c)
   {
+    const Angle_balance<NT>& balance = balances[c];
     const double left = balance.radians();
-    if(balance.number_of_fixed > 0 ? left > 0 : balance.is_zero())
+    if(balance.fixed.empty() ? balance.is_zero() : left > 0)
       continue;
-    if(balance.number_of_fixed > 0 || std::abs(left) > negligible_angle_defect() || balance.inexact.empty())
-    {
-      result.status = Status::GAUSS_BONNET_VIOLATED;
-      result.amount = left;
-      return result;
-    }
+    if(!balance.fixed.empty() || std::abs(left) > negligible_angle_defect() || balance.inexact.empty())
+      return unbalanced(t, pieces, c, balance);
     for(std::uint32_t v : balance.inexact)
     {
       Exact_angle<NT> angle = conditions.angle_sum(v);

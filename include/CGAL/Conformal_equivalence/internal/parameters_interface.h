@@ -26,6 +26,7 @@ CGAL_add_named_parameter(conformal_retriangulation_t, conformal_retriangulation,
 // cutting and laying out
 CGAL_add_named_parameter(conformal_edge_is_seam_t, conformal_edge_is_seam, edge_is_seam_map)
 CGAL_add_named_parameter(conformal_seam_weight_t, conformal_seam_weight, seam_weight_map)
+CGAL_add_named_parameter(conformal_seam_is_border_t, conformal_seam_is_border, seam_is_border)
 CGAL_add_named_parameter(conformal_layout_frame_t, conformal_layout_frame, layout_frame)
 
 // cones that place themselves, seamless textures

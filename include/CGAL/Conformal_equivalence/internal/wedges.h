@@ -4,7 +4,6 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_WEDGES_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_WEDGES_H
 
-#include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 
 #include <cstdint>
@@ -22,8 +21,15 @@ struct Wedges
   std::uint32_t number_of_wedges = 0;
 };
 
-template <typename NT>
-Wedges find_wedges(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut)
+// For surfaces of which no edge is cut.
+struct Nothing_is_cut
+{
+  bool operator[](std::uint32_t) const { return false; }
+};
+
+// `cut[e]` tells whether the edge `e` is cut.
+template <typename NT, typename Edge_set>
+Wedges find_wedges(const Intrinsic_triangulation<NT>& t, const Edge_set& cut)
 {
   typedef std::uint32_t Index;
   const Index null_index = t.null_index;
