@@ -4,7 +4,8 @@
 /// \file IO/write_SVG.h
 /// A picture of a layout: its triangles coloured by a number each, for example the
 /// logarithmic scale factor (section 2 of the paper) or the quasi-conformal factor
-/// (section 7), under a checkerboard, with the outline and a legend.
+/// (section 7), under a checkerboard, with the outline, the two sides of each seam
+/// (section 3.3) in one colour, the cones (section 5), and a legend.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_SVG_H
 #define CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_SVG_H
@@ -13,6 +14,7 @@
 
 #include <CGAL/Conformal_equivalence/internal/color_scale.h>
 #include <CGAL/Conformal_equivalence/internal/corner_values.h>
+#include <CGAL/Conformal_equivalence/internal/layout_seams.h>
 #include <CGAL/Conformal_equivalence/internal/PNG.h>
 #include <CGAL/Conformal_equivalence/internal/Text_buffer.h>
 
@@ -28,6 +30,7 @@
 #include <fstream>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -50,6 +53,14 @@ struct SVG_options
   std::size_t maximum_number_of_faces_with_edges = 20000;
   /// up to this many the triangles are drawn as such; those of larger meshes become an image of pixels.
   std::size_t maximum_number_of_drawn_faces = 250000;
+  /// Whether the two sides of each seam path are drawn in a colour of their own. A seam is an interior edge of the mesh
+  /// whose two sides lie apart in the layout. A path of them ends where another number of seam edges than two meet, at the
+  /// border of the mesh, and at cones (if these are drawn).
+  bool seams = true;
+  /// Whether a dot is drawn at each corner of a cone: an interior vertex of the mesh whose angles in the layout do not sum
+  /// up to 2 pi within 1e-6 and the rounding of the coordinates. Switch it off for a layout in charts: at their common
+  /// borders angles sum up to anything.
+  bool cones = true;
 };
 
 } // namespace IO
@@ -82,8 +93,10 @@ struct SVG_frame
 
   std::array<std::int64_t, 2> in_hundredths(const std::array<double, 2>& p) const
   {
+    // numbers too far apart for a frame are drawn at its rim
+    const auto rounded = [](double x) { return std::llround((std::min)((std::max)(100 * x, -1e15), 1e15)); };
     const std::array<double, 2> q = (*this)(p);
-    return {{ std::llround(100 * q[0]), std::llround(100 * q[1]) }};
+    return {{ rounded(q[0]), rounded(q[1]) }};
   }
 };
 
@@ -95,6 +108,7 @@ class SVG_writer
   typedef typename Graph_traits::face_descriptor      face_descriptor;
   typedef std::array<double, 2>                       Point;
   typedef std::array<std::int64_t, 2>                 Grid_point;
+  typedef Layout_seams<TriangleMesh, HalfedgeUVMap>   Seams;
 
   static constexpr std::size_t number_of_classes = 64;
   static constexpr double shortest_edge_drawn = 4; // shorter ones would only hide the colours
@@ -125,6 +139,7 @@ public:
     else
       write_triangles(out);
     write_outline(out);
+    write_seams_and_cones(out);
     write_legend(out, m_frame.width + margin);
     out << "</svg>\n";
   }
@@ -305,7 +320,6 @@ private:
       if(! is_border(h, m_tm) && ! get(is_done, h) && is_outline(m_tm, m_uv, h))
         write_closed_curve(out, h, is_done);
     out << "\"/>\n";
-    // seams and cones follow here
   }
 
   template <typename HalfedgeBoolMap>
@@ -333,6 +347,101 @@ private:
     while(h != first);
     if(is_begun)
       out << 'z';
+  }
+
+  void write_seams_and_cones(Text_buffer& out) const
+  {
+    if(! m_options.seams && ! m_options.cones)
+      return;
+    const Seams seams(m_tm, m_uv, m_options.cones);
+    if(m_options.seams && ! seams.paths().empty())
+      write_seams(out, seams.paths());
+    if(! seams.cones().empty())
+      write_cones(out, seams.cones());
+  }
+
+  // A path a seam path, with both of its sides.
+  void write_seams(Text_buffer& out, const std::vector<typename Seams::Path>& paths) const
+  {
+    const std::vector<std::size_t> colors = seam_colors(paths);
+    out << "<g id=\"seams\" transform=\"scale(.01)\" fill=\"none\" stroke-width=\"400\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
+    for(std::size_t i = 0; i < paths.size(); ++i)
+    {
+      out << "<path stroke=\"#" << categorical_color(colors[i]) << "\" d=\"";
+      write_side(out, paths[i], [&](halfedge_descriptor h)
+        { return std::make_pair(corner_value(m_uv, prev(h, m_tm)), corner_value(m_uv, h)); });
+      write_side(out, paths[i], [&](halfedge_descriptor h)
+      {
+        const halfedge_descriptor o = opposite(h, m_tm);
+        return std::make_pair(corner_value(m_uv, o), corner_value(m_uv, prev(o, m_tm)));
+      });
+      out << "\"><title>seam " << i + 1 << ", edges: " << paths[i].size() << "</title></path>\n";
+    }
+    out << "</g>\n";
+  }
+
+  template <typename EndsOfEdge>
+  void write_side(Text_buffer& out, const typename Seams::Path& path, const EndsOfEdge& ends_of_edge) const
+  {
+    bool is_begun = false;
+    Grid_point previous{{0, 0}};
+    for(halfedge_descriptor h : path)
+    {
+      const std::pair<Point, Point> ends = ends_of_edge(h);
+      if(! is_finite(ends.first) || ! is_finite(ends.second))
+      {
+        is_begun = false;
+        continue;
+      }
+      const Grid_point a = m_frame.in_hundredths(ends.first), b = m_frame.in_hundredths(ends.second);
+      if(! is_begun || a != previous)
+        out << 'M' << a[0] << ' ' << a[1];
+      if(a != b)
+        write_step(out << 'l', a, b);
+      is_begun = true;
+      previous = b;
+    }
+  }
+
+  // Colours are given in turn, past those taken at an end of the path, unless all are.
+  std::vector<std::size_t> seam_colors(const std::vector<typename Seams::Path>& paths) const
+  {
+    auto taken = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), m_tm); // a bit for each colour
+    for(auto v : vertices(m_tm))
+      put(taken, v, 0);
+    std::vector<std::size_t> colors;
+    for(const typename Seams::Path& path : paths)
+    {
+      const auto s = source(path.front(), m_tm), t = target(path.back(), m_tm);
+      std::size_t c = colors.size() % number_of_categorical_colors, tried = 0;
+      const auto is_taken = [&] { return (((get(taken, s) | get(taken, t)) >> c) & 1) != 0; };
+      for(; is_taken() && tried < number_of_categorical_colors; ++tried)
+        c = (c + 1) % number_of_categorical_colors;
+      put(taken, s, get(taken, s) | (std::uint32_t(1) << c));
+      put(taken, t, get(taken, t) | (std::uint32_t(1) << c));
+      colors.push_back(c);
+    }
+    return colors;
+  }
+
+  // A dot a place.
+  void write_cones(Text_buffer& out, const std::vector<typename Seams::Cone>& cones) const
+  {
+    out << "<g id=\"cones\" fill=\"#111\" stroke=\"#fff\" stroke-width=\"1.5\">\n";
+    for(const typename Seams::Cone& cone : cones)
+    {
+      std::vector<Grid_point> places;
+      for(halfedge_descriptor h : CGAL::halfedges_around_target(cone.vertex, m_tm))
+        if(is_finite(corner_value(m_uv, h)))
+          places.push_back(m_frame.in_hundredths(corner_value(m_uv, h)));
+      std::sort(places.begin(), places.end());
+      places.erase(std::unique(places.begin(), places.end()), places.end());
+      for(const Grid_point& p : places)
+        out << "<circle cx=\"" << static_cast<double>(p[0]) / 100 << "\" cy=\"" << static_cast<double>(p[1]) / 100
+            << "\" r=\"6\"><title>vertex " << cone.index << ", angle: " << short_text(cone.angle * (180 / CGAL_PI))
+            << " degrees</title></circle>\n";
+    }
+    out << "</g>\n";
   }
 
   static void write_hundredths(Text_buffer& out, const Grid_point& p)
@@ -395,8 +504,12 @@ namespace IO {
 
 draws the layout `uv` of `tm` as SVG: the triangles in 64 colours by the values of `scalar`,
 a checkerboard whose squares lie along the axes of the layout, the outline (borders and seams),
-and a legend with the colours, the least and the largest value. Corners that are not finite are
-left out. A drawing of 200 000 triangles takes about 6 MB.
+the two sides of each seam path in the same colour, the cones as dots, and a legend with the
+colours, the least and the largest value. Seams and cones are found in the layout itself
+(see `SVG_options`); their titles, shown by browsers under the mouse, give the number of a seam and
+of its edges, the place of a cone in `vertices(tm)` and its angle in degrees. Of seam paths that
+meet at a vertex up to 16 have different colours. Corners that are not finite are left out. A
+drawing of 200 000 triangles takes about 6 MB. The layout may have several pieces.
 
 \tparam TriangleMesh a model of `FaceListGraph`
 \tparam HalfedgeUVMap a model of `ReadablePropertyMap` with

@@ -44,6 +44,17 @@ inline std::string hexadecimal(const RGB& color)
   return text;
 }
 
+// Colours that are told apart easily, in an order that keeps neighbours far from each other.
+constexpr std::size_t number_of_categorical_colors = 16;
+
+inline const char* categorical_color(std::size_t i)
+{
+  static const char* const colors[number_of_categorical_colors] = {
+    "e6194b", "4363d8", "f58231", "911eb4", "42d4f4", "f032e6", "9a6324", "bfef45",
+    "800000", "469990", "ffb6c8", "000075", "ffe119", "3cb44b", "808000", "a9a9a9" };
+  return colors[i % number_of_categorical_colors];
+}
+
 // The range of the finite values among those seen.
 struct Finite_range
 {
