@@ -7,6 +7,7 @@
 #define BOOST_TEST_MODULE test_flatten_mesh
 #include "include/boost_test.h"
 #include "include/check_flattening.h"
+#include "include/test_meshes.h"
 
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/flatten_mesh.h"
 
@@ -20,6 +21,8 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
+#include <optional>
 #include <random>
 #include <set>
 #include <sstream>
@@ -253,12 +256,13 @@ std::string off(const std::string& vertices, const std::string& faces)
   return "OFF\n" + std::to_string(lines(vertices)) + ' ' + std::to_string(lines(faces)) + " 0\n" + vertices + faces;
 }
 
-checking::Verdict judge(const std::string& input, const std::string& output, bool border_keeps_its_lengths = true)
+checking::Verdict judge(const std::string& input, const std::string& output, bool border_keeps_its_lengths = true,
+                        const checking::Cones& cones = {})
 {
   checking::Tolerances tolerances;
   tolerances.border_keeps_its_lengths = border_keeps_its_lengths;
   const checking::Verdict verdict =
-    checking::check_flattening(checking::read_surface(input), checking::read_surface(output), tolerances);
+    checking::check_flattening(checking::read_surface(input), checking::read_surface(output), tolerances, cones);
   BOOST_TEST_MESSAGE(verdict);
   return verdict;
 }
@@ -279,7 +283,7 @@ template <typename Parameterizer>
 std::string write_map_of(Mesh mesh, Parameterizer parameterizer, const std::string& file)
 {
   auto uv = mesh.add_property_map<flattening::Vertex, flattening::Kernel::Point_2>("v:uv").first;
-  const SMP::Error_code error = SMP::parameterize(mesh, parameterizer, flattening::border(mesh).front(), uv);
+  const SMP::Error_code error = SMP::parameterize(mesh, parameterizer, flattening::first_border_halfedge(mesh), uv);
   BOOST_TEST((error == SMP::OK));
   auto corner_uv = mesh.add_property_map<flattening::Halfedge, flattening::Kernel::Point_2>("h:uv").first;
   for(flattening::Halfedge h : mesh.halfedges())
@@ -545,6 +549,322 @@ BOOST_AUTO_TEST_CASE(lion_head, * testing::needs_mesh("lion-head.off"))
 }
 
 // ------------------------------------------------------------------------------------------------
+// Any topology
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+Soup program_soup(const testing::Soup& soup) { return { soup.points, soup.triangles, 0 }; }
+
+std::string write_off(const Folder& folder, const std::string& name, const testing::Soup& soup)
+{
+  return folder.write(name, as_off(program_soup(soup)));
+}
+
+// Corners of a layout, weights divided out.
+std::array<double, 2> corner(const checking::Surface& s, std::size_t f, std::size_t k)
+{
+  const auto& t = s.texture[s.corners[f][k % 3]];
+  return {{ t[0] / t[2], t[1] / t[2] }};
+}
+
+// Angle sums of the layout at all vertices, 0 at isolated ones.
+std::vector<double> angle_sums(const checking::Surface& s)
+{
+  std::vector<double> sums(s.points.size(), 0.);
+  for(std::size_t f = 0; f < s.faces.size(); ++f)
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      const auto p = corner(s, f, k), q = corner(s, f, k + 1), r = corner(s, f, k + 2);
+      const double x = q[0] - p[0], y = q[1] - p[1], z = r[0] - p[0], w = r[1] - p[1];
+      sums[s.faces[f][k]] += std::atan2(x * w - y * z, x * z + y * w);
+    }
+  return sums;
+}
+
+double area(const checking::Surface& s)
+{
+  double sum = 0;
+  for(std::size_t f = 0; f < s.faces.size(); ++f)
+  {
+    const auto p = corner(s, f, 0), q = corner(s, f, 1), r = corner(s, f, 2);
+    sum += ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
+  }
+  return sum;
+}
+
+// Length in the layout by length in space, at the edge from a to b.
+double scale_of_edge(const checking::Surface& s, std::size_t a, std::size_t b)
+{
+  for(std::size_t f = 0; f < s.faces.size(); ++f)
+    for(std::size_t k = 0; k < 3; ++k)
+      if(s.faces[f][k] == a && s.faces[f][(k + 1) % 3] == b)
+      {
+        const auto p = corner(s, f, k), q = corner(s, f, k + 1);
+        return std::hypot(q[0] - p[0], q[1] - p[1]) / testing::distance<double>(s.points[a], s.points[b]);
+      }
+  return 0;
+}
+
+// a cone of this many degrees
+std::optional<checking::Real> degrees(double angle) { return angle / 180 * checking::pi; }
+const std::optional<checking::Real> free_angle;
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+// Each piece is a disk: the corners, as distinct points of the layout, satisfy Euler's formula.
+void check_number_of_corners(const checking::Surface& s, const nlohmann::json& report)
+{
+  const long components = report["components"].get<long>();
+  const long chi = 2 * components - report["borders"].get<long>() - 2 * report["genus"].get<long>();
+  const long vertices = report["vertices"].get<long>() - report["isolated_vertices"].get<long>();
+  BOOST_TEST(long(s.texture.size()) == vertices - chi + components + report["seam_edges"].get<long>());
+}
+
+// The lattice in the report is that of the layout of one torus.
+void check_lattice(const checking::Surface& s, const nlohmann::json& report)
+{
+  BOOST_REQUIRE(report["lattices"].size() == 1u);
+  const nlohmann::json& lattice = report["lattices"][0];
+  BOOST_TEST(lattice["face"].is_number_integer());
+  const auto p = lattice["periods"].get<std::array<std::array<double, 2>, 2> >();
+  const auto tau = lattice["tau"].get<std::array<double, 2> >();
+  const double det = p[0][0] * p[1][1] - p[0][1] * p[1][0], norm = p[0][0] * p[0][0] + p[0][1] * p[0][1];
+  BOOST_TEST(std::abs(area(s) / det - 1) < 1e-10); // the torus covers the plane once
+  BOOST_TEST(std::abs(tau[0] - (p[0][0] * p[1][0] + p[0][1] * p[1][1]) / norm) < 1e-10);
+  BOOST_TEST(std::abs(tau[1] - det / norm) < 1e-10);
+  BOOST_TEST(std::abs(tau[0]) <= .5 + 1e-10);
+  BOOST_TEST(std::hypot(tau[0], tau[1]) >= 1 - 1e-10);
+}
+#endif
+
+// Runs the program, which succeeds and whose layout is good; returns its layout and its report.
+struct Flattened
+{
+  checking::Surface layout;
+  checking::Verdict verdict;
+  std::string out;
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  nlohmann::json report;
+#endif
+
+  Flattened(const Folder& folder, const std::string& input, const std::vector<std::string>& options = {},
+            const checking::Cones& cones = {}, bool borders_keep_their_lengths = true)
+  {
+    std::vector<std::string> arguments = { input, "-o", folder / "o.obj" };
+    arguments.insert(arguments.end(), options.begin(), options.end());
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    arguments.insert(arguments.end(), { "--report", folder / "o.json" });
+#endif
+    const Run r = run(arguments);
+    BOOST_TEST_CONTEXT(r.err)
+    BOOST_REQUIRE(r.status == 0);
+    out = r.out;
+    BOOST_TEST_MESSAGE(out);
+    verdict = judge(input, folder / "o.obj", borders_keep_their_lengths, cones);
+    BOOST_TEST(verdict.is_good());
+    layout = checking::read_surface(folder / "o.obj");
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    report = json(folder / "o.json");
+    BOOST_TEST(report["residual"].get<double>() <= 1e-12);
+    BOOST_TEST(report["flipped_triangles"] == 0);
+    check_number_of_corners(layout, report);
+#endif
+  }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(sphere_with_eight_cones)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "sphere.off", testing::icosphere(3));
+  const std::string cones = folder.write("cones.txt", "# equal angles\n\n0 270\n 1\t+270.0 # here\n2 2.7e2\n3 270\r\n4 270\n5 270\n6 270\n7 270");
+  checking::Cones expected;
+  for(std::size_t v = 0; v < 8; ++v)
+    expected[v] = degrees(270);
+  const Flattened f(folder, input, {"--cones", cones, "--projective", "--svg", folder / "o.svg"}, expected);
+  BOOST_TEST(! judge(input, folder / "o.obj").is_good()); // taken for a layout without cones
+  expected[3] = degrees(271);
+  BOOST_TEST(! judge(input, folder / "o.obj", true, expected).is_good());
+  BOOST_TEST(contains(f.out, "surface                 1 component, 0 borders, genus 0\n"));
+  BOOST_TEST(contains(f.out, "cones                   8\n"));
+  BOOST_TEST(contains(f.out, "seam edges              "));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(f.report["genus"] == 0);
+  BOOST_TEST(f.report["borders"] == 0);
+  BOOST_TEST(f.report["components"] == 1);
+  BOOST_TEST(f.report["lattices"].empty());
+  BOOST_TEST(f.report["seam_edges"].get<int>() >= 7); // a tree that reaches all cones
+  BOOST_REQUIRE(f.report["cones"].size() == 8u);
+  for(std::size_t v = 0; v < 8; ++v)
+  {
+    BOOST_TEST(f.report["cones"][v]["vertex"] == v);
+    BOOST_TEST(std::abs(f.report["cones"][v]["angle_degrees"].get<double>() - 270) < 1e-9);
+    BOOST_TEST(f.report["cones"][v]["prescribed"] == true);
+  }
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(sphere_with_free_cones)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "sphere.off", testing::icosphere(3));
+  const std::string cones = folder.write("cones.txt", "9 free\n8 # free, too\n0 200\n3 220\n7 free\n20 360\n");
+  const Flattened f(folder, input, {"--cones", cones, "--projective"},
+                    {{0, degrees(200)}, {3, degrees(220)}, {7, free_angle}, {8, free_angle}, {9, free_angle}});
+  const std::vector<double> sums = angle_sums(f.layout);
+  // 720 degrees of curvature, of which 300 are prescribed; u = 0 at the free cones
+  BOOST_TEST(std::abs((sums[7] + sums[8] + sums[9]) / CGAL_PI * 180 - (3 * 360 - 420)) < 1e-8);
+  std::map<std::size_t, double> weight;
+  for(std::size_t i = 0; i < f.layout.faces.size(); ++i)
+    for(std::size_t k = 0; k < 3; ++k)
+      weight[f.layout.faces[i][k]] = f.layout.texture[f.layout.corners[i][k]][2];
+  BOOST_TEST(weight[7] == weight[8]);
+  BOOST_TEST(weight[7] == weight[9]);
+  BOOST_TEST(contains(f.out, "cones                   5, 3 of them free\n"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const std::vector<std::size_t> expected = {0, 3, 7, 8, 9}; // an angle of 360 degrees is no cone
+  BOOST_REQUIRE(f.report["cones"].size() == expected.size());
+  for(std::size_t i = 0; i < expected.size(); ++i)
+  {
+    const nlohmann::json& cone = f.report["cones"][i];
+    BOOST_TEST(cone["vertex"] == expected[i]);
+    BOOST_TEST(cone["prescribed"] == (expected[i] < 7));
+    BOOST_TEST(std::abs(cone["angle_degrees"].get<double>() - sums[expected[i]] / CGAL_PI * 180) < 1e-8);
+  }
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(torus_and_its_lattice)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "torus.off", testing::torus(48, 16));
+  const Flattened f(folder, input);
+  BOOST_TEST(contains(f.out, "genus 1\n"));
+  BOOST_TEST(contains(f.out, "tau                     "));
+  BOOST_TEST(! contains(f.out, "cones"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(f.report["genus"] == 1);
+  BOOST_TEST(f.report["cones"].empty());
+  check_lattice(f.layout, f.report);
+  // the smooth torus has tau = i sqrt(3^2 - 1^2) / 1
+  BOOST_TEST(std::abs(f.report["lattices"][0]["tau"][1].get<double>() - std::sqrt(8.)) < 0.1);
+#endif
+  // with cones there is no lattice
+  const std::string cones = folder.write("cones.txt", "0 300\n400 420\n");
+  const Flattened g(folder, input, {"--cones", cones}, {{0, degrees(300)}, {400, degrees(420)}});
+  BOOST_TEST(! contains(g.out, "tau"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(g.report["lattices"].empty());
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(annulus)
+{
+  const Folder folder;
+  const std::size_t m = 6, n = 40;
+  const std::string input = write_off(folder, "annulus.off", testing::annulus(m, n, .4));
+  const Flattened f(folder, input); // both borders keep their lengths
+  BOOST_TEST(contains(f.out, "surface                 1 component, 2 borders, genus 0\n"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(f.report["borders"] == 2);
+  BOOST_TEST(f.report["seam_edges"].get<int>() >= int(m)); // from one border to the other
+#endif
+
+  const std::string cones = folder.write("cones.txt", "100 330\n");
+  Flattened(folder, input, {"--cones", cones}, {{100, degrees(330)}});
+}
+
+BOOST_AUTO_TEST_CASE(rectangle_on_one_of_two_borders)
+{
+  const Folder folder;
+  const std::size_t m = 6, n = 40;
+  const std::string input = write_off(folder, "annulus.off", testing::annulus(m, n, .4));
+  const Flattened f(folder, input, {"--boundary", "rectangle=240,250,260,270"}, {}, false);
+  const std::vector<double> sums = angle_sums(f.layout);
+  for(std::size_t i = 0; i < n; ++i)
+    BOOST_TEST(std::abs(sums[m * n + i] - (i % 10 == 0 ? CGAL_PI / 2 : CGAL_PI)) < 1e-10);
+  for(std::size_t i = 0; i < n; ++i) // the inner border keeps its lengths
+  {
+    const double scale = (std::max)(scale_of_edge(f.layout, i, (i + 1) % n), scale_of_edge(f.layout, (i + 1) % n, i));
+    BOOST_TEST(std::abs(scale - 1) < 1e-10);
+  }
+  check_refused({input, "--boundary", "rectangle=0,10,20,270"}, 1, "vertex 270 is not on the same border as vertex 0");
+  check_refused({input, "--boundary", "rectangle=240,3,250,260"}, 1, "vertex 3 is not on the same border as vertex 240");
+  check_refused({input, "--boundary", "rectangle=240,100,250,260"}, 1, "vertex 100 is not on the border");
+  check_refused({input, "--boundary", "rectangle"}, 1, "wrong topology: found 1 component, 2 borders, genus 0");
+  const std::string sphere = write_off(folder, "sphere.off", testing::icosphere(1));
+  check_refused({sphere, "--boundary", "rectangle"}, 1, "the mesh is closed");
+  check_refused({sphere, "--boundary", "rectangle=0,1,2,3"}, 1, "vertex 0 is not on the border");
+}
+
+BOOST_AUTO_TEST_CASE(two_components)
+{
+  const Folder folder;
+  const testing::Soup hill = testing::hill(8, .5), sphere = testing::icosphere(2);
+  const std::string input = write_off(folder, "two.off", testing::together({hill, sphere}, true));
+  const std::size_t first = 1 + hill.points.size() + 1; // of the sphere
+  std::string cones;
+  checking::Cones expected;
+  for(std::size_t i = 0; i < 12; ++i)
+  {
+    cones += std::to_string(first + i) + " 300\n";
+    expected[first + i] = degrees(300);
+  }
+  const Flattened f(folder, input, {"--cones", folder.write("cones.txt", cones)}, expected);
+  BOOST_TEST(f.verdict.pieces == 2u); // whose boxes do not overlap: that is part of the verdict
+  BOOST_TEST(contains(f.out, "surface                 2 components, 1 border, genus 0\n"));
+  BOOST_TEST(contains(f.out, "isolated vertices       2, carried through\n"));
+  BOOST_TEST(contains(f.out, "cones                   12\n"));
+
+  const Flattened g(folder, input, {"--cones", folder / "cones.txt", "--frame", "unit-square"}, expected);
+  for(const auto& t : g.layout.texture)
+    BOOST_TEST((t[0] >= 0 && t[0] <= 1 && t[1] >= 0 && t[1] <= 1));
+
+  // the sphere alone lacks cones
+  check_refused({input, "-o", folder / "p.obj"}, 1, "needs cones, whose curvatures (2 pi - angle) sum up to 12.56");
+  BOOST_TEST(! fs::exists(folder / "p.obj"));
+}
+
+BOOST_AUTO_TEST_CASE(elephant, * testing::needs_mesh("elephant.off"))
+{
+  // 16 cones of 450 degrees, each as far as possible from those before, where at least six
+  // triangles share the angle
+  const Folder folder;
+  const std::string input = testing::mesh_path("elephant.off");
+  const checking::Surface s = checking::read_surface(input);
+  std::vector<std::size_t> degree(s.points.size(), 0);
+  for(const auto& f : s.faces)
+    for(std::size_t v : f)
+      ++degree[v];
+  std::vector<double> distance(s.points.size(), HUGE_VAL);
+  checking::Cones expected;
+  std::string cones;
+  std::size_t c = 0;
+  while(degree[c] < 6)
+    ++c;
+  while(expected.size() < 16)
+  {
+    expected[c] = degrees(450);
+    cones += std::to_string(c) + " 450\n";
+    for(std::size_t v = 0; v < s.points.size(); ++v)
+      distance[v] = (std::min)(distance[v], degree[v] < 6 ? 0. : testing::distance<double>(s.points[v], s.points[c]));
+    c = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());
+  }
+  const Flattened f(folder, input, {"--cones", folder.write("cones.txt", cones)}, expected);
+  BOOST_TEST(contains(f.out, "surface                 1 component, 0 borders, genus 3\n"));
+}
+
+BOOST_AUTO_TEST_CASE(knot, * testing::needs_mesh("knot1.off"))
+{
+  const Folder folder;
+  const Flattened f(folder, testing::mesh_path("knot1.off"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  check_lattice(f.layout, f.report);
+#endif
+}
+
+// ------------------------------------------------------------------------------------------------
 // Bad input: a message of its own, nothing left behind
 // ------------------------------------------------------------------------------------------------
 
@@ -571,12 +891,15 @@ BOOST_AUTO_TEST_CASE(wrong_usage)
   check_refused({"a.off", "--threads", "0"}, 2, "--threads");
   check_refused({"a.off", "--solver", "abacus"}, 2, "simplicial");
   check_refused({"a.off", "--precision", "quadruple"}, 2, "--precision");
+  check_refused({"a.off", "--cones", ""}, 2, "--cones needs the name of a file");
+  check_refused({"a.off", "--cones", "auto"}, 2, "a file of this name: ./auto");
+  check_refused({"a.off", "--cones", "e", "--cones", "f"}, 2, "--cones");
 }
 
 BOOST_AUTO_TEST_CASE(not_in_this_version)
 {
   const std::vector<std::vector<std::string> > options = {
-    {"--retriangulate", "when-needed"}, {"--retriangulate", "always"}, {"--local-repair"}, {"--cones", "file"}, {"--cones", "auto=3"},
+    {"--retriangulate", "when-needed"}, {"--retriangulate", "always"}, {"--local-repair"}, {"--cones", "auto"}, {"--cones", "auto=3"},
     {"--target", "sphere"}, {"--target", "disk"}, {"--boundary", "disk"}, {"--seamless"}, {"--quantize"}, {"--quantize=90"},
     {"--precision", "200"}, {"--tiles", "4"}, {"--max-scale", "3"} };
   for(std::vector<std::string> option : options)
@@ -619,9 +942,7 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 1 0 3\n"), "opposite orientations at the edge"},
     {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 0 3 4\n"), "not a manifold: the faces at the vertex 0 form more than one fan"},
     {"a.off", off("0 0 0\n1 0 0\n1 0 0\n0 1 0\n", two), "edge"},
-    {"a.off", off("0 0 0\n1 0 0\n0 1 0\n0 0 1\n", "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"), "the mesh is closed (genus 0)"},
-    {"a.off", off(square + "5 0 0\n6 0 0\n5 1 0\n", two + "3 4 5 6\n"), "2 components"},
-    {"a.off", off("0 0 0\n3 0 0\n0 3 0\n.5 .5 0\n1 .5 0\n.5 1 0\n", "3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n"), "2 borders and genus 0"},
+    {"a.off", off("0 0 0\n1 0 0\n0 1 0\n0 0 1\n", "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"), "closed surface of genus other than 1 needs cones"},
     {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: face 0 names the vertex 4 (counted from 1)"},
     {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "line 4"},
     {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n", "face 0 names the vertex 0 (counted from 1)"},
@@ -696,6 +1017,56 @@ BOOST_AUTO_TEST_CASE(bad_condition_files)
   BOOST_TEST((folder.files() == std::set<std::string>{"grid.off", "c.txt"}));
 }
 
+BOOST_AUTO_TEST_CASE(bad_cone_files)
+{
+  const Folder folder;
+  testing::Soup soup = testing::hill(4, .5); // 25 vertices, of which 12 is in the middle
+  soup.points.push_back({{7, 7, 7}});        // 25 has no face
+  const std::string input = write_off(folder, "grid.off", soup);
+  const auto check = [&](const std::string& text, const std::string& reason)
+    { check_refused({input, "-o", folder / "o.obj", "--cones", folder.write("c.txt", text)}, 1, reason); };
+  check("# cones\n12 free\n7 90\n12 90\n", "c.txt: line 4: vertex 12 is listed twice, first in line 2");
+  check("12\n12\n", "c.txt: line 2: vertex 12 is listed twice, first in line 1");
+  check("12 300\n26 90\n", "c.txt: line 2: there is no vertex 26; the mesh has 26 vertices");
+  check("-1 90\n", "line 1: there is no vertex -1");
+  check("99999999999999999999 90\n", "line 1: expected an integer");
+  check("1.5 90\n", "line 1: expected an integer, found '1.5'");
+  check("free 12\n", "line 1: expected an integer, found 'free'");
+  check("\n3 90\n", "c.txt: line 2: vertex 3 is on the border");
+  check("25 90\n", "line 1: vertex 25 has no face");
+  check("12 0\n", "line 1: vertex 12: the angle 0 is not positive");
+  check("12 -90\n", "line 1: vertex 12: the angle -90 is not positive");
+  check("12 nan\n", "line 1: vertex 12: the angle nan is not a finite number");
+  check("12 inf\n", "line 1: vertex 12: the angle inf is not a finite number");
+  check("12 1e999\n", "line 1: vertex 12: the angle inf is not a finite number");
+  check("12 ninety\n", "line 1: vertex 12: expected an angle in degrees or 'free', found 'ninety'");
+  check("12 90deg\n", "line 1: vertex 12: expected an angle in degrees or 'free', found '90deg'");
+  check("12 Free\n", "found 'Free'");
+  check("12 90 free\n", "line 1: vertex 12: expected nothing after '90', found 'free'");
+  check("12 free 90\n", "line 1: vertex 12: expected nothing after 'free', found '90'");
+  check("12 1e300\n", "vertex 12"); // the library: out of range
+  check_refused({input, "--cones", folder / "missing.txt"}, 1, "missing.txt: cannot be opened");
+  check_refused({input, "--cones", folder.path.string()}, 1, "is a directory");
+  BOOST_TEST((folder.files() == std::set<std::string>{"grid.off", "c.txt"}));
+
+  // Gauss-Bonnet: the cones of a sphere have 720 degrees of curvature; or nothing is left for the free ones
+  const std::string sphere = write_off(folder, "sphere.off", testing::icosphere(2));
+  const auto check_sphere = [&](const std::string& text, const std::string& reason)
+    { check_refused({sphere, "-o", folder / "o.obj", "--cones", folder.write("c.txt", text)}, 1, reason); };
+  check_sphere("0 180\n1 180\n2 180\n", "Gauss-Bonnet");
+  check_sphere("# none\n", "needs cones");
+  check_sphere("0 free\n1 free\n", "leave none for the vertices of fixed scale");
+  check_sphere("0 1000\n1 free\n2 free\n", "vertex 0"); // more than five triangles can have
+  BOOST_TEST((folder.files() == std::set<std::string>{"grid.off", "sphere.off", "c.txt"}));
+
+  // a file with a name of its own
+  const fs::path before = fs::current_path();
+  folder.write("auto", "12 300\n");
+  fs::current_path(folder.path);
+  BOOST_TEST(run({input, "--cones", "./auto"}).status == 0);
+  fs::current_path(before);
+}
+
 // ------------------------------------------------------------------------------------------------
 // Outputs: all or none
 // ------------------------------------------------------------------------------------------------
@@ -707,6 +1078,10 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written)
   check_refused({input, "-o", folder / "none/o.obj"}, 1, "cannot write");
   check_refused({input, "-o", folder.path.string()}, 1, "it is a directory");
   check_refused({input, "-o", input}, 2, "would overwrite the input");
+  const std::string cones = folder.write("o.mtl", "12 free\n");
+  check_refused({input, "--cones", cones, "--report", cones}, 2, "would overwrite the input");
+  check_refused({input, "--cones", cones, "-o", folder / "o.obj"}, 2, "o.mtl would overwrite the input");
+  fs::remove(cones);
   check_refused({input, "-o", folder / "o.x", "--svg", folder / "o.x"}, 2, "two outputs have the same name");
   if(fs::exists("/dev/full"))
     check_refused({input, "-o", folder / "o.obj", "--svg", "/dev/full"}, 1, "cannot write /dev/full");

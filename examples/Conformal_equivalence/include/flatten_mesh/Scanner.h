@@ -77,6 +77,9 @@ public:
     return m_text.substr(begin, m_at - begin);
   }
 
+  // The next word of this line; empty if there is none.
+  std::string_view word_in_line() { return at_end_of_line() ? std::string_view() : word(); }
+
   void skip_line()
   {
     while(m_at < m_text.size() && m_text[m_at] != '\n')
@@ -116,8 +119,6 @@ public:
 
 private:
   static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
-
-  std::string_view word_in_line() { return at_end_of_line() ? std::string_view() : word(); }
 
   template <typename Number>
   Number value(const char* kind, std::string_view w)

@@ -15,6 +15,7 @@
 #  include <nlohmann/json.hpp>
 #endif
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <limits>
@@ -104,12 +105,39 @@ inline std::string status_text(const Figures& figures)
   return figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? "CONVERGED_TO_ROUNDING" : "OK";
 }
 
+inline std::string count(std::size_t n, const char* singular, const char* plural)
+{
+  return text(n, ' ', n == 1 ? singular : plural);
+}
+
+typedef std::vector<std::pair<std::string, std::string> > Lines;
+
+// What a disk without cones does not have.
+inline void add_topology(const Report& report, Lines& lines)
+{
+  const CE::Surface_topology& t = report.topology;
+  if(! t.is_disk())
+    lines.emplace_back("surface", text(count(t.number_of_components, "component", "components"), ", ",
+                                       count(t.number_of_borders, "border", "borders"), ", genus ", t.genus));
+  const std::size_t n = report.cones.size();
+  const auto free = static_cast<std::size_t>(
+    std::count_if(report.cones.begin(), report.cones.end(), [](const auto& cone) { return cone.is_free; }));
+  if(n != 0)
+    lines.emplace_back("cones", text(n, free == 0 ? "" : free == n ? " free" : text(", ", free, " of them free")));
+  if(! report.transitions.empty())
+    lines.emplace_back("seam edges", text(report.transitions.size()));
+  for(const auto& lattice : report.lattices)
+    lines.emplace_back(report.lattices.size() == 1 ? "tau" : text("tau at face ", lattice.face),
+                       text(lattice.tau[0], " + ", lattice.tau[1], " i"));
+}
+
 // Names and values, for the terminal and the page.
-inline std::vector<std::pair<std::string, std::string> > summary(const Mesh& mesh, const Figures& figures)
+inline Lines summary(const Mesh& mesh, const Figures& figures)
 {
   const CE::Statistics& s = figures.report.statistics;
-  std::vector<std::pair<std::string, std::string> > lines;
+  Lines lines;
   lines.emplace_back("mesh", text(mesh.number_of_vertices(), " vertices, ", mesh.number_of_faces(), " triangles"));
+  add_topology(figures.report, lines);
   if(figures.number_of_isolated_vertices != 0)
     lines.emplace_back("isolated vertices", text(figures.number_of_isolated_vertices, ", carried through"));
   lines.emplace_back("solver", text(s.number_of_iterations, " Newton steps, residual ", s.residual, " radians",
@@ -123,7 +151,7 @@ inline std::vector<std::pair<std::string, std::string> > summary(const Mesh& mes
   lines.emplace_back("injective", injective_text(figures));
   lines.emplace_back("largest length error", text(figures.report.layout_length_error));
   lines.emplace_back("seconds", text("read ", figures.reading_seconds, ", import ", s.seconds.import, ", solve ", s.seconds.solve,
-                                     ", lay out ", s.seconds.layout, ", verify ", figures.verifying_seconds));
+                                     ", cut ", s.seconds.cut, ", lay out ", s.seconds.layout, ", verify ", figures.verifying_seconds));
   return lines;
 }
 
@@ -138,6 +166,22 @@ inline void print_summary(std::ostream& out, const Options& options, const Mesh&
 }
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+inline nlohmann::ordered_json json_cones(const Report& report)
+{
+  auto cones = nlohmann::ordered_json::array();
+  for(const auto& cone : report.cones)
+    cones.push_back({ {"vertex", cone.vertex_index}, {"angle_degrees", cone.angle / CGAL_PI * 180}, {"prescribed", ! cone.is_free} });
+  return cones;
+}
+
+inline nlohmann::ordered_json json_lattices(const Report& report)
+{
+  auto lattices = nlohmann::ordered_json::array();
+  for(const auto& lattice : report.lattices)
+    lattices.push_back({ {"face", lattice.face}, {"periods", lattice.periods}, {"tau", lattice.tau} });
+  return lattices;
+}
+
 inline std::string json_report(const Options& options, const Mesh& mesh, const Figures& figures)
 {
   const CE::Statistics& s = figures.report.statistics;
@@ -159,7 +203,9 @@ inline std::string json_report(const Options& options, const Mesh& mesh, const F
   json["tolerance"] = options.tolerance;
   json["u_min"] = figures.u_min;
   json["u_max"] = figures.u_max;
-  json["cones"] = nlohmann::ordered_json::array();
+  json["cones"] = json_cones(figures.report);
+  json["seam_edges"] = figures.report.transitions.size();
+  json["lattices"] = json_lattices(figures.report);
   json["quasi_conformal"] = { {"mean", figures.distortion.mean_quasi_conformal_factor},
                               {"max", figures.distortion.maximum_quasi_conformal_factor} };
   json["flipped_triangles"] = figures.verdict.number_of_flipped_triangles;

@@ -25,6 +25,7 @@
 #include <new>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace flattening {
 
@@ -51,15 +52,16 @@ inline std::string name_without_folder(const std::string& file)
 
 inline void announce_outputs(const Options& options, const Material_files& beside, Output_files& files)
 {
-  for(const std::string& file : {options.obj, options.svg, options.html, options.report})
-    for(const std::string& input : {options.input, options.angle_file, options.scale_file})
+  const std::vector<std::string> outputs = { options.obj, options.obj.empty() ? "" : beside.material,
+                                             options.obj.empty() ? "" : beside.texture, options.svg, options.html, options.report };
+  for(const std::string& file : outputs)
+    for(const std::string& input : {options.input, options.cone_file, options.angle_file, options.scale_file})
     {
       std::error_code ignored;
       if(! file.empty() && ! input.empty() && std::filesystem::equivalent(file, input, ignored))
         throw Usage_error("the output " + file + " would overwrite the input");
     }
-  for(const std::string& file : {options.obj, options.obj.empty() ? "" : beside.material,
-                                 options.obj.empty() ? "" : beside.texture, options.svg, options.html, options.report})
+  for(const std::string& file : outputs)
     if(! file.empty())
       files.announce(file);
 }
@@ -69,8 +71,9 @@ inline void announce_outputs(const Options& options, const Material_files& besid
 {
   const bool may_be_the_triangulation =
     report.status == CE::Status::DEGENERATE_METRIC || report.status == CE::Status::ITERATIONS_EXHAUSTED;
+  const bool lacks_cones = report.status == CE::Status::MISSING_CONDITION && options.cone_file.empty();
   fail(options.input, ": ", CE::message(report),
-       may_be_the_triangulation ? " (the triangulation is kept: --retriangulate never)" : "");
+       may_be_the_triangulation ? " (the triangulation is kept: --retriangulate never)" : lacks_cones ? " (--cones FILE)" : "");
 }
 
 inline std::string list_of_faces(const std::vector<Face>& faces)
@@ -183,7 +186,6 @@ inline void run(const Options& options, std::ostream& out, std::ostream& err)
   const Stopwatch watch;
   Mesh mesh;
   read_mesh(options.input, mesh);
-  require_disk(mesh, options.input);
   Figures figures;
   figures.reading_seconds = watch.seconds();
 

@@ -8,7 +8,6 @@
 #include "read_soup.h"
 #include "Triangle_soup.h"
 
-#include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -17,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace flattening {
 
@@ -54,24 +54,41 @@ inline void read_mesh(const std::string& file, Mesh& mesh)
   build_mesh(soup, file, mesh);
 }
 
-// Before anything is computed: the surface is a disk.
-inline void require_disk(const Mesh& mesh, const std::string& file)
+inline bool is_on_border(const Mesh& mesh, Vertex v)
 {
-  const auto imported = CE::import_mesh(mesh);
-  const CE::Surface_topology t = CE::surface_topology(imported.triangulation, CE::connected_components(imported.triangulation));
-  if(t.number_of_components > 1)
-    fail(file, ": the mesh has ", t.number_of_components, " components; only one topological disk can be flattened");
-  if(t.number_of_borders == 0)
-    fail(file, ": the mesh is closed (genus ", t.genus, "); only a topological disk can be flattened");
-  if(! t.is_disk())
-    fail(file, ": the mesh has ", t.number_of_borders, t.number_of_borders == 1 ? " border" : " borders", " and genus ", t.genus,
-         "; only a topological disk (1 border, genus 0) can be flattened");
+  return ! mesh.is_isolated(v) && mesh.is_border(v);
 }
 
-inline bool is_on_border(const Mesh& mesh, std::size_t v)
+// The halfedges of the border that `h` belongs to, in their order.
+inline std::vector<Halfedge> border_cycle(const Mesh& mesh, Halfedge h)
 {
-  return ! mesh.is_isolated(Vertex(static_cast<Mesh::size_type>(v)))
-      && mesh.is_border(Vertex(static_cast<Mesh::size_type>(v)));
+  std::vector<Halfedge> cycle;
+  const Halfedge first = h;
+  do
+  {
+    cycle.push_back(h);
+    h = mesh.next(h);
+  }
+  while(h != first);
+  return cycle;
+}
+
+// Some halfedge on the border; the null halfedge if the surface is closed.
+inline Halfedge first_border_halfedge(const Mesh& mesh)
+{
+  for(Halfedge h : mesh.halfedges())
+    if(mesh.is_border(h))
+      return h;
+  return Mesh::null_halfedge();
+}
+
+// The border halfedge to a border vertex.
+inline Halfedge border_halfedge_to(const Mesh& mesh, Vertex v)
+{
+  for(Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
+    if(mesh.is_border(h))
+      return h;
+  return Mesh::null_halfedge();
 }
 
 } // namespace flattening

@@ -27,7 +27,8 @@ struct Options
   std::string input, obj, svg, html, report;
   bool is_rectangle = false;
   std::optional<std::array<std::size_t, 4> > corners; // of the rectangle; chosen if absent
-  std::string angle_file, scale_file;                 // of the border
+  std::string angle_file, scale_file;                 // of the borders
+  std::string cone_file;
   bool unit_square = false;
   bool color_by_quasi_conformal_factor = false;
   bool projective = false, require_injective = false, quiet = false;
@@ -50,13 +51,17 @@ inline po::options_description visible_options()
     ("report", po::value<std::string>(), "write the figures as JSON")
     ("boundary", po::value<std::vector<std::string> >()->composing(),
        "natural: the border keeps its lengths (default)\n"
-       "rectangle[=i,j,k,l]: with corners at these vertices, or chosen\n"
+       "rectangle[=i,j,k,l]: with corners at these vertices of one border, other borders stay natural; "
+       "or, on a topological disk, with chosen corners\n"
        "angles=FILE: angle sums in degrees, lines 'vertex-index angle'\n"
        "scale=FILE: u, lines 'vertex-index u'\n"
        "angles and scale may both be given; border vertices not named have u = 0")
     ("target", po::value<std::string>()->default_value("plane"), "plane (sphere, disk: not in this version)")
     ("frame", po::value<std::string>()->default_value("canonical"), "canonical | unit-square")
-    ("cones", po::value<std::string>(), "FILE | auto[=N] (not in this version)")
+    ("cones", po::value<std::string>(),
+       "FILE: cones inside the surface, lines 'vertex-index [angle in degrees | free]'; at a free cone, or where nothing "
+       "follows the vertex, u = 0 and the angle is found. Closed surfaces need cones, except for tori\n"
+       "auto[=N]: not in this version (a file of such a name is given as ./auto)")
     ("max-scale", po::value<double>(), "bound on u for automatic cones (not in this version)")
     ("quantize", po::value<std::string>()->implicit_value("90"), "cones at multiples of this angle in degrees (not in this version)")
     ("seamless", po::bool_switch(), "a seamless layout (not in this version)")
@@ -81,8 +86,9 @@ inline std::string help_text()
 {
   std::ostringstream out;
   out << "Usage: flatten_mesh INPUT [-o OUT.obj] [--svg OUT.svg] [--html OUT.html] [--report OUT.json] [options]\n"
-         "Flattens a triangle mesh that is a topological disk (OFF, OBJ, PLY or STL) by an exact discrete\n"
-         "conformal map: the layout has the length cross ratios of the mesh. Vertices are counted from 0.\n"
+         "Flattens a triangle mesh (OFF, OBJ, PLY or STL) of any topology by an exact discrete conformal map:\n"
+         "the layout has the length cross ratios of the mesh. What is no topological disk, or has cones, is\n"
+         "cut open. Vertices are counted from 0.\n"
          "Exit status: 0 done, no triangle flipped; 1 failed, nothing is written; 2 wrong usage.\n\n"
       << visible_options();
   return out.str();
@@ -116,7 +122,7 @@ inline void refuse_what_is_not_available(const po::variables_map& values)
   if(precision != "double")
     refuse(text("--precision ", precision));
 
-  for(const char* name : {"cones", "max-scale", "quantize", "tiles"})
+  for(const char* name : {"max-scale", "quantize", "tiles"})
     if(values.count(name))
       refuse(text("--", name));
   for(const char* name : {"seamless", "local-repair"})
@@ -179,6 +185,15 @@ inline void parse_boundary(const std::vector<std::string>& values, Options& opti
   const bool is_from_files = ! options.angle_file.empty() || ! options.scale_file.empty();
   if(is_natural + options.is_rectangle + is_from_files > 1 || (! is_from_files && values.size() > 1))
     throw Usage_error("these values of --boundary exclude each other; only angles=FILE and scale=FILE go together");
+}
+
+inline void parse_cones(const std::string& value, Options& options)
+{
+  if(value.empty())
+    throw Usage_error("--cones needs the name of a file");
+  if(value == "auto" || value.compare(0, 5, "auto=") == 0)
+    throw Usage_error(text("--cones ", value, " is not available in this version (a file of this name: ./", value, ")"));
+  options.cone_file = value;
 }
 
 inline void parse_numbers(const po::variables_map& values, Options& options)
@@ -252,6 +267,8 @@ inline Options parse_options(int argc, const char* const argv[])
 #endif
   if(values.count("boundary"))
     parse_boundary(values["boundary"].as<std::vector<std::string> >(), options);
+  if(values.count("cones"))
+    parse_cones(values["cones"].as<std::string>(), options);
   parse_numbers(values, options);
   options.unit_square = values["frame"].as<std::string>() == "unit-square";
   options.color_by_quasi_conformal_factor = values["color-by"].as<std::string>() == "qc";

@@ -95,7 +95,8 @@ Report flatten_with(const SolverTraits& solver, const Options& options, const Me
 {
   Progress_visitor visitor(progress);
   return CE::flatten(mesh, result.uv,
-    CGAL::parameters::border_angle_map(conditions.angle)
+    CGAL::parameters::border_angle_map(conditions.border_angle)
+                     .cone_angle_map(conditions.cone_angle)
                      .vertex_is_constrained_map(conditions.is_constrained)
                      .prescribed_log_scale_factor_map(conditions.u)
                      .log_scale_factor_map(result.u)
