@@ -11,6 +11,7 @@
 
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/make_seam_mesh.h>
 
 #include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -26,7 +27,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -336,27 +340,293 @@ BOOST_AUTO_TEST_CASE(polyhedron)
   BOOST_TEST(verdict.is_good(), verdict);
 }
 
-// A sphere, cut along a path of edges: the disk that it is then.
-BOOST_AUTO_TEST_CASE(seam_mesh)
+// --- seam meshes --------------------------------------------------------------------------------
+
+namespace {
+
+typedef Mesh::Property_map<Edge, bool>                                   Edge_mark;
+typedef Mesh::Property_map<Vertex, bool>                                 Vertex_mark;
+typedef CGAL::Seam_mesh<Mesh, Edge_mark, Vertex_mark>                    Seam_mesh;
+typedef boost::graph_traits<Seam_mesh>::halfedge_descriptor              Seam_halfedge;
+typedef SMP::Conformal_equivalence_parameterizer_3<Seam_mesh>            Seam_parameterizer;
+
+// A mesh with a seam, and what a parameterization along it writes.
+struct Seamed
 {
-  Mesh sm = surface_mesh<Mesh>(icosphere(2));
-  auto is_seam = sm.add_property_map<Edge, bool>("e:is_seam", false).first;
-  auto is_on_seam = sm.add_property_map<Vertex, bool>("v:is_on_seam", false).first;
-  typedef CGAL::Seam_mesh<Mesh, Mesh::Property_map<Edge, bool>, Mesh::Property_map<Vertex, bool> > Seam_mesh;
-  Seam_mesh seam_mesh(sm, is_seam, is_on_seam);
-  Halfedge h = *halfedges(sm).begin();
-  for(int i = 0; i < 5; ++i)
-  {
-    BOOST_TEST(seam_mesh.add_seam(source(h, sm), target(h, sm)));
-    h = next(opposite(next(opposite(next(h, sm), sm), sm), sm), sm); // straight on
-  }
-  boost::graph_traits<Seam_mesh>::halfedge_descriptor bhd = boost::graph_traits<Seam_mesh>::null_halfedge();
-  for(auto s : halfedges(seam_mesh))
-    if(is_border(s, seam_mesh))
-      bhd = s;
-  auto uv = sm.add_property_map<Halfedge, Point_2>("h:uv").first;
+  Mesh sm;
+  Edge_mark seam;
+  Vertex_mark on_seam;
+  Mesh::Property_map<Halfedge, Point_2> uv; // at the canonical halfedges of the seam mesh
+  Mesh::Property_map<Vertex, double> u, angle;
   Report report;
-  const SMP::Conformal_equivalence_parameterizer_3<Seam_mesh> parameterizer(params::seam_is_border(true).flattening_report(std::ref(report)));
-  const SMP::Error_code error = SMP::parameterize(seam_mesh, parameterizer, bhd, uv);
-  BOOST_TEST((error == SMP::OK), CE::message(report));
+
+  explicit Seamed(const Mesh& mesh) : sm(mesh)
+  {
+    seam = sm.add_property_map<Edge, bool>("e:seam", false).first;
+    on_seam = sm.add_property_map<Vertex, bool>("v:on_seam", false).first;
+    uv = sm.add_property_map<Halfedge, Point_2>("h:seam_uv", Point_2(unwritten, unwritten)).first;
+    u = sm.add_property_map<Vertex, double>("v:u", unwritten).first;
+    angle = sm.add_property_map<Vertex, double>("v:cone_angle", 2 * CGAL_PI).first;
+  }
+  explicit Seamed(const Soup& soup) : Seamed(surface_mesh<Mesh>(soup)) {}
+  Seamed(const Seamed&) = delete;
+
+  Seam_mesh seam_mesh() { return CE::make_seam_mesh(sm, seam, on_seam); }
+
+  // beginning at a border halfedge of the seam mesh with the face f
+  template <typename NamedParameters = decltype(params::seam_is_border(false))>
+  SMP::Error_code parameterize(Face f = Face(0), const NamedParameters& np = params::seam_is_border(false))
+  {
+    const Seam_mesh cut_open = seam_mesh();
+    std::vector<Face> piece;
+    CGAL::Polygon_mesh_processing::connected_component(f, cut_open, std::back_inserter(piece));
+    Seam_halfedge bhd = boost::graph_traits<Seam_mesh>::null_halfedge();
+    for(Seam_halfedge h : halfedges(cut_open))
+      if(is_border(h, cut_open) && std::find(piece.begin(), piece.end(), face(opposite(h, cut_open), cut_open)) != piece.end())
+        bhd = h;
+    const Seam_parameterizer parameterizer(CE::combine_named_parameters(
+      params::cone_angle_map(angle).log_scale_factor_map(u).flattening_report(std::ref(report)), np));
+    return SMP::parameterize(cut_open, parameterizer, bhd, uv);
+  }
+
+  // by corner, as CGAL's users read it
+  template <typename Corners>
+  void read_corners(Corners corners)
+  {
+    const Seam_mesh cut_open = seam_mesh();
+    for(Halfedge h : halfedges(sm))
+      if(!is_border(h, sm))
+        corners[h] = uv[target(Seam_halfedge(h), cut_open)];
+  }
+
+  bool is_untouched() const
+  {
+    return std::all_of(uv.begin(), uv.end(), [](const Point_2& p) { return p == Point_2(unwritten, unwritten); })
+        && std::all_of(u.begin(), u.end(), [](double x) { return x == unwritten; });
+  }
+};
+
+// The vertices of the icosahedron, all of them cones.
+void twelve_cones(Seamed& m)
+{
+  for(Index i = 0; i < 12; ++i)
+    m.angle[Vertex(i)] = 5 * CGAL_PI / 3;
+}
+
+checking::Cones cones_of(const Report& report)
+{
+  checking::Cones result;
+  for(const auto& cone : report.cones)
+    result[cone.vertex_index] = cone.angle;
+  return result;
+}
+
+// Marks the shortest chain of edges from a to b, in steps.
+void draw_seam(Seamed& m, Vertex a, Vertex b)
+{
+  auto distance = get(CGAL::dynamic_vertex_property_t<int>(), m.sm);
+  for(Vertex v : vertices(m.sm))
+    put(distance, v, -1);
+  std::vector<Vertex> queue(1, b);
+  put(distance, b, 0);
+  for(std::size_t i = 0; i < queue.size(); ++i)
+    for(Halfedge h : CGAL::halfedges_around_target(queue[i], m.sm))
+      if(get(distance, source(h, m.sm)) < 0)
+      {
+        put(distance, source(h, m.sm), get(distance, queue[i]) + 1);
+        queue.push_back(source(h, m.sm));
+      }
+  while(a != b)
+    for(Halfedge h : CGAL::halfedges_around_target(a, m.sm))
+      if(get(distance, source(h, m.sm)) == get(distance, a) - 1)
+      {
+        m.seam[edge(h, m.sm)] = true;
+        a = source(h, m.sm);
+        break;
+      }
+}
+
+} // namespace
+
+// The same metric as that of flatten(), and along the same seam the same layout.
+BOOST_AUTO_TEST_CASE(closed_mesh_along_a_seam)
+{
+  Soup soup = icosphere(3);
+  add_noise(soup, .01, 2);
+  Seamed m(soup);
+  twelve_cones(m);
+  const auto expected_uv = m.sm.add_property_map<Halfedge, Point_2>("h:uv").first;
+  const auto corners = m.sm.add_property_map<Halfedge, Point_2>("h:corners").first;
+  const auto expected_u = m.sm.add_property_map<Vertex, double>("v:expected_u").first;
+  const Report expected = CE::flatten(m.sm, expected_uv, params::cone_angle_map(m.angle).edge_is_seam_map(m.seam).log_scale_factor_map(expected_u));
+  BOOST_TEST_REQUIRE(bool(expected), CE::message(expected));
+  BOOST_TEST_REQUIRE((m.parameterize() == SMP::OK), CE::message(m.report));
+  BOOST_TEST(std::equal(m.u.begin(), m.u.end(), expected_u.begin()));
+  BOOST_TEST(m.report.cones.size() == 12u);
+  BOOST_TEST(m.report.transitions.size() == expected.transitions.size());
+  m.read_corners(corners);
+  for(Halfedge h : halfedges(m.sm))
+    BOOST_TEST((corners[h] == expected_uv[h]));
+
+  // another seam: the same metric, so the same lengths
+  Seamed other(soup);
+  twelve_cones(other);
+  for(Index i = 0; i < 11; ++i)
+    draw_seam(other, Vertex(i), Vertex(11));
+  BOOST_TEST_REQUIRE((other.parameterize() == SMP::OK), CE::message(other.report));
+  BOOST_TEST(std::equal(other.u.begin(), other.u.end(), expected_u.begin()));
+  const auto other_corners = other.sm.add_property_map<Halfedge, Point_2>("h:corners").first;
+  other.read_corners(other_corners);
+  const checking::Verdict verdict = judge(other.sm, other_corners, true, cones_of(other.report));
+  BOOST_TEST(verdict.is_good(), verdict);
+}
+
+// Solved as the disk that it is when it is cut open, with u = 0 on the seam; no cone is needed then.
+BOOST_AUTO_TEST_CASE(the_seam_as_border)
+{
+  Seamed m(icosphere(2));
+  draw_seam(m, Vertex(0), Vertex(3));
+  draw_seam(m, Vertex(3), Vertex(7));
+  draw_seam(m, Vertex(3), Vertex(9));
+  BOOST_TEST((m.parameterize() == CE::to_error_code(CE::Status::MISSING_CONDITION)));
+  BOOST_TEST((m.report.status == CE::Status::MISSING_CONDITION));
+  BOOST_TEST(m.is_untouched());
+
+  BOOST_TEST_REQUIRE((m.parameterize(Face(0), params::seam_is_border(true)) == SMP::OK), CE::message(m.report));
+  const Seam_mesh cut_open = m.seam_mesh();
+  const auto corner = m.sm.add_property_map<Halfedge, Point_2>("h:corner").first;
+  const auto whole = CE::flatten(cut_open, corner); // the seam mesh as the surface that it is
+  BOOST_TEST_REQUIRE(bool(whole), CE::message(whole));
+  for(Seam_halfedge h : halfedges(cut_open))
+    if(!is_border(h, cut_open))
+      BOOST_TEST(plane_distance(m.uv[target(h, cut_open)], corner[h]) <= 1e-12);
+  for(Edge e : edges(m.sm))
+    if(m.seam[e])
+    {
+      BOOST_TEST(m.u[source(e, m.sm)] == 0);
+      for(Halfedge h : { halfedge(e, m.sm), opposite(halfedge(e, m.sm), m.sm) })
+        BOOST_TEST(std::abs(uv_length(m.sm, corner, h) - std::sqrt(CGAL::squared_distance(m.sm.point(source(h, m.sm)), m.sm.point(target(h, m.sm))))) <= 1e-13);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(seams_that_miss_something)
+{
+  Seamed m(icosphere(2));
+  twelve_cones(m);
+  for(Index i = 0; i < 11; ++i)
+    if(i != 4)
+      draw_seam(m, Vertex(i), Vertex(11));
+  const bool is_passed = m.seam_mesh().has_on_seam(Vertex(4)); // on the way from another one
+  BOOST_TEST_REQUIRE(!is_passed);
+  BOOST_TEST((m.parameterize() == SMP::ERROR_NO_TOPOLOGICAL_DISC));
+  BOOST_TEST((m.report.status == CE::Status::SEAM_MISSES_CONE));
+  BOOST_TEST((m.report.vertices == std::vector<Vertex>(1, Vertex(4))));
+  BOOST_TEST(CE::message(m.report).find("vertex 4") != std::string::npos);
+  BOOST_TEST(m.is_untouched());
+
+  Seamed ring(torus(8, 6)); // one loop alone leaves a cylinder
+  for(Edge e : edges(ring.sm))
+    ring.seam[e] = source(e, ring.sm).idx() / 6 == 2 && target(e, ring.sm).idx() / 6 == 2;
+  for(bool is_border : { false, true })
+  {
+    BOOST_TEST((ring.parameterize(Face(0), params::seam_is_border(is_border)) == SMP::ERROR_NO_TOPOLOGICAL_DISC));
+    BOOST_TEST((ring.report.status == CE::Status::SEAM_LEAVES_NO_DISK));
+    BOOST_TEST(CE::message(ring.report).find("1 component, 2 borders, genus 0") != std::string::npos, CE::message(ring.report));
+    BOOST_TEST(ring.is_untouched());
+  }
+  for(Edge e : edges(ring.sm)) // with a second one it is a disk
+    ring.seam[e] = ring.seam[e] || (source(e, ring.sm).idx() % 6 == 1 && target(e, ring.sm).idx() % 6 == 1);
+  BOOST_TEST((ring.parameterize() == SMP::OK), CE::message(ring.report));
+  BOOST_TEST(ring.report.lattices.size() == 1u);
+
+  Maps disk(hill(5, .4)); // a cone in a disk without a seam
+  const auto angle = disk.sm.add_property_map<Vertex, double>("v:angle", 2 * CGAL_PI).first;
+  angle[Vertex(14)] = 5;
+  Report report;
+  BOOST_TEST((SMP::parameterize(disk.sm, Parameterizer(params::cone_angle_map(angle).flattening_report(std::ref(report))), disk.bhd, disk.uv)
+              == SMP::ERROR_NO_TOPOLOGICAL_DISC));
+  BOOST_TEST((report.status == CE::Status::SEAM_MISSES_CONE));
+  BOOST_TEST((report.vertices == std::vector<Vertex>(1, Vertex(14))));
+}
+
+// A seam of one edge, from the border to a cone; and one that passes through border vertices.
+BOOST_AUTO_TEST_CASE(short_seams_and_seams_at_the_border)
+{
+  const Index n = 6;
+  const auto at = [n](Index i, Index j) { return Vertex(j * (n + 1) + i); };
+  Seamed m(hill(n, .4));
+  m.angle[at(1, 3)] = 5.5;
+  draw_seam(m, at(0, 3), at(1, 3));
+  BOOST_TEST_REQUIRE(std::count(m.seam.begin(), m.seam.end(), true) == 1);
+  BOOST_TEST_REQUIRE((m.parameterize() == SMP::OK), CE::message(m.report));
+  const auto corners = m.sm.add_property_map<Halfedge, Point_2>("h:corners").first;
+  m.read_corners(corners);
+  const checking::Verdict verdict = judge(m.sm, corners, true, cones_of(m.report));
+  BOOST_TEST(verdict.is_good(), verdict);
+  BOOST_TEST(m.report.transitions.size() == 1u);
+
+  // from the left border inwards, down to the lower border, and up again to the right one: three pieces, of which each is a disk
+  Seamed pieces(hill(n, .4));
+  draw_seam(pieces, at(0, 3), at(3, 3));
+  draw_seam(pieces, at(3, 3), at(3, 0));
+  draw_seam(pieces, at(3, 0), at(n, 3));
+  const Seam_mesh cut_open = pieces.seam_mesh();
+  std::size_t laid_out = 0;
+  for(Face f : { *faces(pieces.sm).begin(), face(opposite(halfedge(at(3, n), pieces.sm), pieces.sm), pieces.sm) })
+  {
+    std::vector<Face> piece;
+    CGAL::Polygon_mesh_processing::connected_component(f, cut_open, std::back_inserter(piece));
+    for(Halfedge h : halfedges(pieces.sm))
+      pieces.uv[h] = Point_2(unwritten, unwritten);
+    BOOST_TEST_REQUIRE((pieces.parameterize(f) == SMP::OK), CE::message(pieces.report));
+    for(Face g : faces(pieces.sm))
+    {
+      const bool is_inside = std::find(piece.begin(), piece.end(), g) != piece.end();
+      laid_out += is_inside;
+      for(Halfedge h : CGAL::halfedges_around_face(halfedge(g, pieces.sm), pieces.sm))
+      {
+        const Point_2 p = pieces.uv[target(Seam_halfedge(h), cut_open)];
+        BOOST_TEST((p == Point_2(unwritten, unwritten)) == !is_inside);
+      }
+    }
+  }
+  BOOST_TEST(laid_out > num_faces(pieces.sm) / 2);
+  BOOST_TEST(laid_out < num_faces(pieces.sm));
+
+  // the metric is that of the whole disk, wherever the seam runs
+  Maps whole(hill(n, .4));
+  Parameterizer parameterizer(params::log_scale_factor_map(whole.u));
+  BOOST_TEST_REQUIRE((SMP::parameterize(whole.sm, parameterizer, whole.bhd, whole.uv) == SMP::OK));
+  BOOST_TEST(std::equal(whole.u.begin(), whole.u.end(), pieces.u.begin()));
+}
+
+// What CGAL's users draw: a file of the selection plugin.
+BOOST_AUTO_TEST_CASE(seam_from_a_selection_file)
+{
+  const std::string file = "seam_of_test.selection.txt";
+  Seamed drawn(icosphere(2));
+  twelve_cones(drawn);
+  for(Index i = 0; i < 11; ++i)
+    draw_seam(drawn, Vertex(i), Vertex(11));
+  {
+    std::ofstream out(file);
+    out << "\n\n"; // no vertices, no faces; pairs of vertices are edges
+    for(Edge e : edges(drawn.sm))
+      if(drawn.seam[e])
+        out << source(e, drawn.sm).idx() << ' ' << target(e, drawn.sm).idx() << ' ';
+    out << '\n';
+  }
+  Seamed m(icosphere(2));
+  twelve_cones(m);
+  Seam_mesh cut_open(m.sm, m.seam, m.on_seam);
+  const auto bhd_of_mesh = cut_open.add_seams(file.c_str());
+  std::remove(file.c_str());
+  BOOST_TEST_REQUIRE((bhd_of_mesh != Mesh::null_halfedge()));
+  const Seam_halfedge bhd(bhd_of_mesh, true);
+  BOOST_TEST_REQUIRE(is_border(bhd, cut_open));
+  const Seam_parameterizer parameterizer(params::cone_angle_map(m.angle).log_scale_factor_map(m.u).flattening_report(std::ref(m.report)));
+  BOOST_TEST((SMP::parameterize(cut_open, parameterizer, bhd, m.uv) == SMP::OK), CE::message(m.report));
+  BOOST_TEST((drawn.parameterize() == SMP::OK));
+  BOOST_TEST(std::equal(m.u.begin(), m.u.end(), drawn.u.begin()));
+  BOOST_TEST(std::equal(m.uv.begin(), m.uv.end(), drawn.uv.begin()));
 }

@@ -692,6 +692,33 @@ BOOST_AUTO_TEST_CASE(gauss_bonnet_is_demanded)
   }
 }
 
+// Also a defect that is less than half a unit in the last place for each of the angles over which it is spread.
+BOOST_AUTO_TEST_CASE(small_defects_are_spread_to_the_last_bit)
+{
+  const Triangulation t = testing::triangulation(testing::icosphere(3));
+  const CE::Surface_components pieces = CE::connected_components(t);
+  const std::vector<double> noise = testing::random_numbers(t.number_of_vertices(), .01, 9);
+  for(double defect : {1e-10, 3e-12, 2e-13, -1e-13, 4e-15})
+  {
+    Conditions conditions(t);
+    double sum = 0;
+    for(Index v = 0; v + 1 < t.number_of_vertices(); ++v)
+    {
+      const double angle = 2 * CGAL_PI * (1 - 2. / t.number_of_vertices()) + noise[v];
+      conditions.prescribe_angle_sum(v, angle);
+      sum += noise[v];
+    }
+    conditions.prescribe_angle_sum(t.number_of_vertices() - 1, 2 * CGAL_PI * (1 - 2. / t.number_of_vertices()) - sum);
+    const double rounded = CE::internal::angle_balances(t, pieces, conditions)[0].radians(); // of the sum above
+    const double last = conditions.angle_sum(t.number_of_vertices() - 1).radians();
+    conditions.prescribe_angle_sum(t.number_of_vertices() - 1, last + rounded + defect);
+    const CE::internal::Feasibility feasibility = CE::internal::make_feasible(t, pieces, conditions);
+    BOOST_CHECK(feasibility.status == Status::OK);
+    BOOST_CHECK_LE(std::abs(feasibility.angle_defect_spread - std::abs(defect)), 2e-15);
+    BOOST_CHECK_LE(std::abs(CE::internal::angle_balances(t, pieces, conditions)[0].radians()), 2e-15);
+  }
+}
+
 // Three triangles around an apex, with a border edge too long for the others.
 BOOST_AUTO_TEST_CASE(degenerate_minimizers_are_named)
 {

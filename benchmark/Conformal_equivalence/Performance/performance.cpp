@@ -18,10 +18,8 @@
 // analysis and factorization of the Laplacian (the Hessian at u = 0, natural border) by
 // CHOLMOD, ordered by AMD; `baseline` by METIS too.
 
+#include "../include/factorization.h"
 #include "../include/methods.h"
-
-#include <CGAL/Conformal_equivalence/internal/energy.h>
-#include <CGAL/Conformal_equivalence/internal/solver/Laplacian_solver.h>
 
 #include <cstdint>
 #include <cstdlib>
@@ -57,44 +55,19 @@ void print(const char* key, const Value& value)
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD
 
-// The lower half of the Laplacian of the vertices that are not on the border.
-Eigen::SparseMatrix<double> laplacian(const Mesh& mesh)
-{
-  const auto imported = CE::import_mesh(mesh);
-  const CE::Intrinsic_triangulation<double>& t = imported.triangulation;
-  CE::internal::Conformal_energy<double> energy(t, true);
-  energy.evaluate(std::vector<double>(t.number_of_vertices(), 0.));
-  std::vector<char> free(t.number_of_vertices());
-  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
-    free[v] = t.is_isolated_vertex(v) || t.is_border_vertex(v) ? 0 : 1;
-  CE::internal::Edge_graph graph;
-  graph.set_edges(t);
-  graph.set_free(free);
-  return CE::internal::assemble_lower(graph, energy.weights(), std::vector<double>(t.number_of_vertices(), 0.));
-}
-
 void measure_factorization(const Eigen::SparseMatrix<double>& a, const std::string& name, int ordering)
 {
-  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double> > solver;
-  solver.cholmod().nmethods = 1;
-  solver.cholmod().method[0].ordering = ordering;
-  solver.cholmod().postorder = true;
-  solver.cholmod().print = 0;
-  const Processor_stopwatch stopwatch;
-  solver.analyzePattern(a);
-  const double analysis = stopwatch.seconds();
-  solver.factorize(a);
-  const double both = stopwatch.seconds();
-  if(solver.info() != Eigen::Success)
+  const Factorization_seconds seconds = time_factorization(a, ordering);
+  if(seconds.analysis < 0)
     return; // not positive definite: no figure
-  print((name + "_analyze_seconds").c_str(), analysis);
-  print((name + "_factorize_seconds").c_str(), both - analysis);
-  print((name + "_seconds").c_str(), both);
+  print((name + "_analyze_seconds").c_str(), seconds.analysis);
+  print((name + "_factorize_seconds").c_str(), seconds.factorization);
+  print((name + "_seconds").c_str(), seconds.analysis + seconds.factorization);
 }
 
 void measure_baseline(const Mesh& mesh, bool with_metis)
 {
-  const Eigen::SparseMatrix<double> a = laplacian(mesh);
+  const Eigen::SparseMatrix<double> a = laplacian(CE::import_mesh(mesh).triangulation);
   measure_factorization(a, "amd", CHOLMOD_AMD);
   if(with_metis)
     measure_factorization(a, "metis", CHOLMOD_METIS);

@@ -379,22 +379,26 @@ void write_metric(const Flattening<TriangleMesh>& flattening, const NamedParamet
 }
 
 // Writes the corners to all halfedges of imported faces; a halfedge without a face
-// gets the corner of the face across.
+// gets the corner of the face across. That comes first: on a Seam_mesh both may have the same key.
 template <typename TriangleMesh, typename HalfedgeUVMap>
 void write_corners(const Imported_mesh<TriangleMesh>& mesh, const Layout<double>& layout, HalfedgeUVMap uv)
 {
   typedef typename boost::property_traits<HalfedgeUVMap>::value_type Point_2;
   const Intrinsic_triangulation<double>& t = mesh.triangulation;
   const auto point = [&](std::uint32_t h) { return Point_2(layout.corner[h][0], layout.corner[h][1]); };
+  for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    if(!t.is_border(h))
+      continue;
+    const auto across = opposite(mesh.halfedge(h), mesh.mesh());
+    if(CGAL::is_border(across, mesh.mesh())) // and not between charts
+      put(uv, across, point(t.previous(h)));
+  }
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
   {
     auto hd = mesh.halfedge(3 * f);
     for(std::uint32_t h = 3 * f; h < 3 * f + 3; ++h, hd = next(hd, mesh.mesh()))
-    {
       put(uv, hd, point(h));
-      if(t.is_border(h) && CGAL::is_border(opposite(hd, mesh.mesh()), mesh.mesh())) // and not between charts
-        put(uv, opposite(hd, mesh.mesh()), point(t.previous(h)));
-    }
   }
 }
 

@@ -172,6 +172,21 @@ Feasibility unbalanced(const Intrinsic_triangulation<NT>& t, const Surface_compo
   return result;
 }
 
+// Adds `left` to the targets of `vertices`, evenly; what rounding takes from one is added to the next ones.
+template <typename NT>
+void spread(double left, const std::vector<std::uint32_t>& vertices, Conformal_conditions<NT>& conditions)
+{
+  NT rest_left = NT(left);
+  for(std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    Exact_angle<NT> angle = conditions.angle_sum(vertices[i]);
+    const NT before = angle.rest;
+    angle.rest += rest_left / NT(double(vertices.size() - i));
+    rest_left -= angle.rest - before;
+    conditions.prescribe_angle_sum(vertices[i], angle);
+  }
+}
+
 // Checks all of the above; adds negligible defects to the targets that are not
 // exact multiples of pi / 2520.
 template <typename NT>
@@ -196,12 +211,7 @@ Feasibility make_feasible(const Intrinsic_triangulation<NT>& t, const Surface_co
       continue;
     if(!balance.fixed.empty() || std::abs(left) > negligible_angle_defect() || balance.inexact.empty())
       return unbalanced(t, pieces, c, balance);
-    for(std::uint32_t v : balance.inexact)
-    {
-      Exact_angle<NT> angle = conditions.angle_sum(v);
-      angle.rest += NT(left) / NT(double(balance.inexact.size()));
-      conditions.prescribe_angle_sum(v, angle);
-    }
+    spread(left, balance.inexact, conditions);
     result.angle_defect_spread += std::abs(left);
   }
   return result;
