@@ -166,6 +166,74 @@ public:
   const std::vector<NT>& lengths() const { return length_; }              ///< by edge
 
   /// @}
+  /// \name Flips
+  /// @{
+
+  /// is `true` iff `e` can be flipped: it has two faces, and these are not the same.
+  bool is_flippable(Index e) const
+  {
+    const Index h = halfedge_of_edge_[e];
+    return !is_border(h) && face(h) != face(twin_[h]);
+  }
+
+  /// replaces the edge `e`, one diagonal of the quadrilateral made of its two faces, by the other diagonal, of length `length`.
+  /// The edge keeps its index, and the two faces and the six halfedges are used again; with `h = edge_halfedge(e)` and
+  /// `g = twin(h)`:
+  ///
+  ///                 k                             k
+  ///               /   \                         / | \          Afterwards h runs from l to k, on the left of
+  ///          p  /       \  n               p  /   |   \  n      it the triangle l, k, i, and g from k to l with
+  ///           / face(h)   \                 /     |     \       k, l, j. What was next(h), previous(h),
+  ///         i ----- h ----> j             i       h^      j     next(g), previous(g) becomes previous(g),
+  ///           \ face(g)   /                 \     |     /       next(h), previous(h), next(g).
+  ///          m  \       /  q               m  \   |   /  q
+  ///               \   /                         \ | /
+  ///                 l                             l
+  ///
+  /// Loops and multiple edges may arise. O(1).
+  /// \pre `is_flippable(e)`
+  void flip_edge(Index e, const NT& length)
+  {
+    CGAL_precondition(is_flippable(e));
+    const Index h = halfedge_of_edge_[e], g = twin_[h];
+    const Index k = apex(h), l = apex(g);
+    const std::array<Index, 4> from = {{next(h), previous(h), next(g), previous(g)}},
+                               to = {{previous(g), next(h), previous(h), next(g)}};
+    const std::array<Index, 4> outer_origin = {{origin_[from[0]], origin_[from[1]], origin_[from[2]], origin_[from[3]]}},
+                               outer_twin = {{twin_[from[0]], twin_[from[1]], twin_[from[2]], twin_[from[3]]}},
+                               outer_edge = {{edge_[from[0]], edge_[from[1]], edge_[from[2]], edge_[from[3]]}};
+    const auto moved = [&](Index a)
+    {
+      for(std::size_t s = 0; s < 4; ++s)
+        if(a == from[s])
+          return to[s];
+      return a;
+    };
+    std::array<Index, 4> outgoing; // of the vertices where the outer sides begin, as it will be
+    for(std::size_t s = 0; s < 4; ++s)
+    {
+      const Index o = halfedge_of_vertex_[outer_origin[s]];
+      outgoing[s] = o == h || o == g ? to[s] : moved(o);
+    }
+    for(std::size_t s = 0; s < 4; ++s)
+    {
+      origin_[to[s]] = outer_origin[s];
+      edge_[to[s]] = outer_edge[s];
+      twin_[to[s]] = outer_twin[s] == null_index ? null_index : moved(outer_twin[s]);
+    }
+    for(std::size_t s = 0; s < 4; ++s)
+    {
+      if(twin_[to[s]] != null_index)
+        twin_[twin_[to[s]]] = to[s];
+      halfedge_of_edge_[outer_edge[s]] = (std::min)(to[s], twin_[to[s]]);
+      halfedge_of_vertex_[outer_origin[s]] = outgoing[s];
+    }
+    origin_[h] = l;
+    origin_[g] = k;
+    length_[e] = length;
+  }
+
+  /// @}
 
 private:
   template <typename> friend class Intrinsic_triangulation;
