@@ -557,8 +557,26 @@ BOOST_AUTO_TEST_CASE(few_iterations_are_said_to_be_too_few)
   BOOST_CHECK(metric.status == Status::ITERATIONS_EXHAUSTED);
   BOOST_CHECK_GT(metric.amount, 1e-12);
   BOOST_CHECK(metric.log_scale_factors.empty());
-  const Metric other = CE::compute_conformal_metric(t, Conditions(t), params::retriangulation(CE::Retriangulation::ALWAYS));
-  BOOST_CHECK(other.status == Status::NOT_AVAILABLE);
+}
+
+// Conditions at vertices without faces mean nothing.
+BOOST_AUTO_TEST_CASE(conditions_at_isolated_vertices_are_not_read)
+{
+  const Triangulation t = testing::triangulation(testing::together({testing::hill(3, .2)}, true));
+  Conditions conditions(t);
+  BOOST_REQUIRE(t.is_isolated_vertex(0));
+  const std::vector<double> expected = solved(t, conditions).log_scale_factors;
+  for(bool is_fixed : {false, true})
+  {
+    if(is_fixed)
+      conditions.fix_log_scale_factor(0, std::numeric_limits<double>::quiet_NaN());
+    else
+      conditions.prescribe_angle_sum(0, std::numeric_limits<double>::quiet_NaN());
+    const Metric metric = CE::compute_conformal_metric(t, conditions);
+    BOOST_CHECK(metric.status == Status::OK);
+    for(Index v = 1; v < t.number_of_vertices(); ++v)
+      BOOST_CHECK_EQUAL(metric.log_scale_factors[v], expected[v]);
+  }
 }
 
 // du/dt = K^ - K~ (section 2.2), by Euler's method, ends at the minimizer.

@@ -1061,12 +1061,18 @@ BOOST_AUTO_TEST_CASE(conditions_that_cannot_be_met)
   BOOST_TEST((none_left.vertices == std::vector<Vertex>(1, border_vertices(straight.sm)[0])));
 }
 
-BOOST_AUTO_TEST_CASE(what_this_version_does_not_have)
+BOOST_AUTO_TEST_CASE(modes_of_retriangulation)
 {
-  Maps m(hill(3, .3));
-  check_refused(m, Status::NOT_AVAILABLE, params::retriangulation(CE::Retriangulation::WHEN_NEEDED));
-  check_refused(m, Status::NOT_AVAILABLE, params::retriangulation(CE::Retriangulation::ALWAYS));
-  BOOST_TEST(bool(m.flatten(params::retriangulation(CE::Retriangulation::NEVER))));
+  Maps never(hill(6, .5)), when_needed(hill(6, .5)), always(hill(6, .5));
+  BOOST_TEST(bool(never.flatten(params::retriangulation(CE::Retriangulation::NEVER))));
+  const Report report = when_needed.flatten(params::retriangulation(CE::Retriangulation::WHEN_NEEDED));
+  BOOST_TEST((report.statistics.conformal_class == CE::Conformal_class::FIXED_TRIANGULATION));
+  BOOST_TEST(std::equal(never.uv.begin(), never.uv.end(), when_needed.uv.begin()));
+  const Report delaunay = always.flatten(params::retriangulation(CE::Retriangulation::ALWAYS));
+  BOOST_TEST_REQUIRE(bool(delaunay), CE::message(delaunay));
+  BOOST_TEST((delaunay.statistics.conformal_class == CE::Conformal_class::DELAUNAY_TRIANGULATION));
+  for(Vertex v : vertices(always.sm))
+    BOOST_TEST(std::abs(always.u[v] - never.u[v]) <= .05);
 }
 
 // --- statuses -----------------------------------------------------------------------------------

@@ -33,10 +33,19 @@ struct Conformal_metric
   /// at least as wide as `NT`: for `double` a pair of two
   typedef typename internal::Wider_number<NT>::type Wide_number;
 
-  Intrinsic_triangulation<NT> triangulation;  ///< with the lengths l, at u = 0
-  std::vector<NT> log_scale_factors;          ///< u, by vertex, rounded to `NT`
+  /// with the lengths l, at u = 0: the triangulation given, or what has become of it by flips
+  Intrinsic_triangulation<NT> triangulation;
+  /// whether `triangulation` is one of the double: of the surface and its mirror image, glued along the border. Elements of the
+  /// surface have the same numbers there.
+  bool is_doubled = false;
+  /// the edges that were flipped, in order: the record of how `triangulation` came from the one given, or its double
+  std::vector<Index> flips;
+  std::vector<NT> log_scale_factors;          ///< u, by vertex of the surface given, rounded to `NT`
 
-  /// e^{u/2}, by vertex, to all the digits that the solver knows: the scaled lengths
+  /// the vertices at which u is equal to its lower bound, in ascending order; see `Conformal_conditions`
+  std::vector<Index> active_bounds;
+
+  /// e^{u/2}, by vertex of `triangulation`, to all the digits that the solver knows: the scaled lengths
   /// made with these are exactly conformally equivalent to the given ones.
   std::vector<Wide_number> scale_factors;
 
@@ -53,6 +62,9 @@ struct Conformal_metric
 
   /// is `true` iff the metric is usable.
   explicit operator bool() const { return is_success(status); }
+
+  /// is `true` iff `triangulation` is not the one given.
+  bool is_retriangulated() const { return is_doubled || !flips.empty(); }
 
   /// the scaled length of the edge of halfedge `h`, rounded to `NT`.
   NT scaled_length(Index h) const { return static_cast<NT>(wide_scaled_length(h)); }

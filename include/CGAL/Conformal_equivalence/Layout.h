@@ -46,6 +46,9 @@ struct Layout
   std::vector<std::array<NT, 2> > corner;
   /// largest relative difference of an edge's length, as laid out and rounded, from its length in the metric
   double length_error = 0;
+  /// by edge, if the triangulation was flipped: the length in the flat surface of the straight line that replaces it.
+  /// Empty if not: edges then are straight lines, of the scaled lengths.
+  std::vector<NT> straight_lengths;
   std::vector<Transition<NT> > transitions;  ///< one for every cut edge, by index
   std::vector<Period_lattice<NT> > lattices; ///< of the flat tori, by their first face
 

@@ -44,7 +44,7 @@ enum class Status
   MISSING_CONDITION,     ///< `vertices` lack a condition that the function needs; or the closed surfaces of `faces`, of a genus other than 1, lack cones
   SINGULAR_PROBLEM,      ///< the linear system could not be factorized
   ITERATIONS_EXHAUSTED,  ///< not converged; `amount` is the residual (radians), `faces` the triangles broken at that point
-  DEGENERATE_METRIC,     ///< the minimizer violates the triangle inequality in `faces`
+  DEGENERATE_METRIC,     ///< the minimizer violates the triangle inequality in `faces`; if edges were flipped, in triangles at `vertices`
   NOT_INJECTIVE,         ///< the layout flips `faces`, or its border crosses itself
   SEAM_LEAVES_NO_DISK,   ///< cut along the given seam, the surface is no disk; see `Flattening_report::topology`
   SEAM_MISSES_CONE,      ///< the cones at `vertices` are not on the given seam
@@ -138,6 +138,26 @@ struct Surface_topology
   }
 };
 
+/// \ingroup PkgConformalEquivalenceEnums
+/// To which metric the one found is conformally equivalent. These are different problems, with slightly different solutions.
+enum class Conformal_class
+{
+  FIXED_TRIANGULATION,   ///< to the one given, on its triangulation: all length cross ratios are kept
+  GIVEN_TRIANGULATION,   ///< to the one given, in the sense of discrete uniformization: with Ptolemy flips of its triangulation
+  DELAUNAY_TRIANGULATION ///< the same, with flips of its intrinsic Delaunay triangulation: depends on the surface alone
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// Whether a triangulation that was flipped is Delaunay, but for edges that cannot be flipped: those of the border, and those of a
+/// triangle that is glued to itself.
+enum class Delaunay_property
+{
+  NOT_ASKED,       ///< no edge was to be flipped
+  EXACT,           ///< yes, by exact predicates on the numbers that are stored
+  WITHIN_ROUNDING, ///< yes, for lengths that differ from those stored by no more than rounding can have done
+  NO               ///< no: some edges were left
+};
+
 /// \ingroup PkgConformalEquivalenceStatus
 /// Figures of one run of the solver.
 struct Statistics
@@ -156,7 +176,13 @@ struct Statistics
   std::size_t number_of_linear_iterations = 0; ///< iterations of the preconditioned conjugate gradient method
   std::size_t number_of_factorizations = 0;    ///< numeric factorizations
   std::size_t number_of_evaluations = 0;       ///< evaluations of the gradient
+  Conformal_class conformal_class = Conformal_class::FIXED_TRIANGULATION; ///< which problem was solved
+  bool is_doubled = false;                     ///< whether the surface was solved as one half of its double
   std::size_t number_of_flips = 0;             ///< edges flipped
+  std::size_t number_of_filter_failures = 0;   ///< of the decisions whether to flip, those for which `double` did not do
+  std::size_t number_of_exact_decisions = 0;   ///< of these, those that needed rational numbers
+  Delaunay_property delaunay = Delaunay_property::NOT_ASKED; ///< whether the triangulation found is Delaunay
+  std::size_t number_of_discarded_iterations = 0; ///< Newton steps on the fixed triangulation, before flips were found to be needed
   double residual = 0;                         ///< largest difference of an angle sum from its target (radians)
   double residual_floor = 0;                   ///< below it `double` cannot tell a residual from rounding (radians)
   double angle_defect_spread = 0;              ///< total angle added to inexact targets to meet Gauss-Bonnet (radians)

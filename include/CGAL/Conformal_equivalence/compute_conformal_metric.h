@@ -4,7 +4,7 @@
 /// \file compute_conformal_metric.h
 /// The heart: conditions in, metric out. Finds, within the conformal class of a
 /// metric, the one with prescribed angle sums at some vertices and prescribed scale
-/// factors at the others (Problem in section 2.1, sections 3.1 and 4 of Springborn,
+/// factors, or lower bounds on them, at the others (Problem in section 2.1, sections 3.1 and 4 of Springborn,
 /// Schroeder and Pinkall, 2008).
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_COMPUTE_CONFORMAL_METRIC_H
@@ -17,8 +17,10 @@
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/double.h>
 #include <CGAL/Conformal_equivalence/internal/energy.h>
 #include <CGAL/Conformal_equivalence/internal/feasibility.h>
+#include <CGAL/Conformal_equivalence/internal/ideal_delaunay_energy.h>
 #include <CGAL/Conformal_equivalence/internal/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/newton.h>
 #include <CGAL/Conformal_equivalence/internal/solver/Laplacian_solver.h>
@@ -31,8 +33,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -94,7 +98,8 @@ public:
   const Surface_components& components() const { return pieces_; }
 
   /// finds the metric with the given conditions. Where no u is fixed on a component, the sum of
-  /// its u is zero. Everything is decided by convexity: the solution is unique.
+  /// its u is zero; or, where there are lower bounds on u, but all angle sums are as prescribed nevertheless, u is the
+  /// least within these. Everything is decided by convexity: the solution is unique.
   ///
   /// Time is that of one sparse Cholesky factorization (none if the last one serves) and of
   /// a few dozen solves and linear passes.
@@ -119,7 +124,7 @@ public:
   ///     \cgalParamDefault{`Newton_strategy::LINE_SEARCH`}
   ///   \cgalParamNEnd
   ///   \cgalParamNBegin{retriangulation}
-  ///     \cgalParamDescription{whether edges may be flipped. This version has `NEVER` only.}
+  ///     \cgalParamDescription{whether edges may be flipped, so that there is a solution for all angles that sum up to what they must}
   ///     \cgalParamType{`Retriangulation`}
   ///     \cgalParamDefault{`Retriangulation::NEVER`}
   ///   \cgalParamNEnd
@@ -140,16 +145,17 @@ public:
   ///  - `EMPTY_MESH`, `INVALID_NUMBER` (vertices), `ANGLE_OUT_OF_RANGE` (vertices), `MISSING_CONDITION` (one face of
   ///    every closed surface of a genus other than 1 that has no cone; `amount`: the curvature that cones must have there),
   ///    `GAUSS_BONNET_VIOLATED` (the vertices with an angle that is not flat, or the border), `NO_ANGLE_LEFT` (the vertices
-  ///    of fixed u): the conditions have no solution, nothing was computed;
+  ///    of fixed or bounded u): the conditions have no solution, nothing was computed;
   ///  - `DEGENERATE_METRIC`: the minimizer was found, but is no metric: `faces` violate the
   ///    triangle inequality, decided exactly;
   ///  - `ITERATIONS_EXHAUSTED` (`amount`: the residual; `faces`: the triangles broken there),
-  ///    `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`, `OUT_OF_MEMORY`, `NOT_AVAILABLE`.
+  ///    `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`, `OUT_OF_MEMORY`.
   template <typename NamedParameters = parameters::Default_named_parameters>
   Metric solve(const Conformal_conditions<NT>& conditions, const NamedParameters& np = parameters::default_values()) &
   {
     Metric result = run(conditions, np);
-    result.triangulation = triangulation_;
+    if(!result.is_retriangulated())
+      result.triangulation = triangulation_;
     return result;
   }
 
@@ -159,7 +165,8 @@ public:
   {
     Metric result = run(conditions, np);
     energy_.reset();
-    result.triangulation = std::move(triangulation_);
+    if(!result.is_retriangulated())
+      result.triangulation = std::move(triangulation_);
     return result;
   }
 
@@ -175,13 +182,6 @@ private:
 
     const internal::Stopwatch stopwatch;
     Metric result;
-    if(choose_parameter(get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::NEVER)
-       != Retriangulation::NEVER)
-    {
-      result.status = Status::NOT_AVAILABLE;
-      return result;
-    }
-
     internal::Newton_options options;
     options.tolerance = choose_parameter(get_parameter(np, internal_np::conformal_gradient_tolerance), 1e-12);
     options.number_of_iterations = choose_parameter(get_parameter(np, internal_np::number_of_iterations), 100u);
@@ -189,10 +189,12 @@ private:
                                         Newton_strategy::LINE_SEARCH);
     auto visitor = choose_parameter<Default_visitor>(get_parameter(np, internal_np::visitor));
     const auto initial = get_parameter(np, internal_np::conformal_initial_u);
+    const Retriangulation retriangulation =
+      choose_parameter(get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::NEVER);
 
     try
     {
-      solve(conditions, initial, options, internal::unwrap(visitor), result);
+      solve(conditions, initial, retriangulation, options, internal::unwrap(visitor), result);
     }
     catch(const std::bad_alloc&)
     {
@@ -203,35 +205,210 @@ private:
     return result;
   }
 
+  // Tells the record of flips, and the edges of the linear systems, of every flip.
+  struct Flip_observer
+  {
+    std::vector<Index>& flips;
+    internal::Laplacian_solver<Solver_traits>& linear;
+    std::size_t number_of_lasting_flips = 0; // those before the energy was made
+
+    void before_flip(const Triangulation&, Index e) { flips.push_back(e); }
+    void after_flip(const Triangulation& t, Index e) { linear.change_edge(t, e); }
+    void begin_anew(const Triangulation& t)
+    {
+      flips.resize(number_of_lasting_flips);
+      for(Index e = 0; e < t.number_of_edges(); ++e)
+        linear.change_edge(t, e);
+    }
+  };
+  typedef internal::Ideal_delaunay_energy<NT, Flip_observer> Flipping_energy;
+
   template <typename Initial, typename Visitor>
-  void solve(Conformal_conditions<NT> conditions, const Initial& initial,
+  void solve(const Conformal_conditions<NT>& conditions, const Initial& initial, Retriangulation retriangulation,
              const internal::Newton_options& options, Visitor& visitor, Metric& result)
   {
+    if(retriangulation != Retriangulation::ALWAYS)
+    {
+      solve_fixed(conditions, initial, options, visitor, result);
+      if(retriangulation == Retriangulation::NEVER || !may_be_helped_by_flips(result))
+        return;
+    }
+    discard(result);
+    solve_flipping(conditions, initial, retriangulation, options, visitor, result);
+    if(may_be_helped_by_flips(result) && has_border())
+    {
+      discard(result);
+      solve_on_double(conditions, retriangulation, options, visitor, result);
+    }
+  }
+
+  // Begins anew.
+  static void discard(Metric& result)
+  {
+    Metric next;
+    next.statistics.number_of_discarded_iterations =
+      result.statistics.number_of_discarded_iterations + result.statistics.number_of_iterations;
+    result = std::move(next);
+  }
+
+  bool has_border() const
+  {
+    return std::any_of(pieces_.components.begin(), pieces_.components.end(),
+                       [](const Surface_components::Component& c) { return c.number_of_borders > 0; });
+  }
+
+  // On the triangulation as it is.
+  template <typename Initial, typename Visitor>
+  void solve_fixed(Conformal_conditions<NT> conditions, const Initial& initial,
+                   const internal::Newton_options& options, Visitor& visitor, Metric& result)
+  {
     visitor.on_stage(Stage::SOLVE);
-    if(!check(conditions, result))
+    if(!check(conditions, true, result))
       return;
     if(!energy_)
       energy_ = std::make_unique<Energy>(triangulation_, true);
+    if(linear_has_flips_)
+      linear_.set_edges(triangulation_);
+    linear_has_flips_ = false;
+    minimize(triangulation_, *energy_, conditions, initial, options, visitor, result);
+  }
+
+  // Where the fixed triangulation has no solution, or none that is a metric.
+  static bool may_be_helped_by_flips(const Metric& result)
+  {
+    return result.status == Status::DEGENERATE_METRIC || result.status == Status::ITERATIONS_EXHAUSTED
+        || result.status == Status::SINGULAR_PROBLEM
+        || (result.status == Status::ANGLE_OUT_OF_RANGE && result.amount > 0);
+  }
+
+  // On a copy of the triangulation, which is flipped on the way.
+  template <typename Initial, typename Visitor>
+  void solve_flipping(Conformal_conditions<NT> conditions, const Initial& initial, Retriangulation retriangulation,
+                      const internal::Newton_options& options, Visitor& visitor, Metric& result)
+  {
+    visitor.on_stage(Stage::SOLVE);
+    if(!check(conditions, false, result))
+      return;
+    result.triangulation = triangulation_;
+    linear_.set_edges(triangulation_);
+    linear_has_flips_ = true;
+    Flip_observer observer{result.flips, linear_, 0};
+    if(retriangulation == Retriangulation::ALWAYS && !make_delaunay(observer, result))
+      return;
+    observer.number_of_lasting_flips = result.flips.size();
+    Flipping_energy energy(result.triangulation, observer);
+    minimize(result.triangulation, energy, conditions, initial, options, visitor, result);
+    result.statistics.number_of_flips = result.flips.size();
+    tell_about_flips(energy.flipper(), result);
+    result.statistics.conformal_class = retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
+                                                                                   : Conformal_class::GIVEN_TRIANGULATION;
+  }
+
+  static void tell_about_flips(internal::Delaunay_flipper<NT>& flipper, Metric& result)
+  {
+    result.statistics.number_of_filter_failures = flipper.counts().filter_failures;
+    result.statistics.number_of_exact_decisions = flipper.counts().exact_decisions;
+    if(!is_success(result.status))
+      return;
+    const internal::Delaunay_verdict verdict = flipper.verdict(result.scale_factors);
+    result.statistics.delaunay = verdict.is_exact         ? Delaunay_property::EXACT
+                               : verdict.is_within_bounds ? Delaunay_property::WITHIN_ROUNDING
+                                                          : Delaunay_property::NO;
+  }
+
+  // On the double, where border edges can be flipped, too.
+  template <typename Visitor>
+  void solve_on_double(const Conformal_conditions<NT>& conditions, Retriangulation retriangulation,
+                       const internal::Newton_options& options, Visitor& visitor, Metric& result)
+  {
+    const internal::Surface_double<NT> twofold(triangulation_);
+    const std::size_t discarded = result.statistics.number_of_discarded_iterations;
+    Conformal_metric_solver solver(twofold.triangulation, linear_.traits());
+    solver.solve_flipping(doubled(conditions, twofold), internal_np::Param_not_found(), retriangulation, options, visitor, result);
+    linear_has_flips_ = true; // the traits may share the factor of the other solver
+    result.is_doubled = result.statistics.is_doubled = true;
+    result.statistics.number_of_discarded_iterations = discarded;
+    if(is_success(result.status))
+      result.log_scale_factors.resize(triangulation_.number_of_vertices());
+    const auto is_image = [&](Index v) { return v >= triangulation_.number_of_vertices(); };
+    for(std::vector<Index>* vertices : {&result.vertices, &result.active_bounds})
+      vertices->erase(std::remove_if(vertices->begin(), vertices->end(), is_image), vertices->end());
+  }
+
+  // The same conditions on both halves of the double.
+  Conformal_conditions<NT> doubled(const Conformal_conditions<NT>& conditions, const internal::Surface_double<NT>& twofold) const
+  {
+    Conformal_conditions<NT> result = twofold.conditions(conditions);
+    for(Index h = 0; h < triangulation_.number_of_halfedges(); ++h)
+    {
+      const Index v = triangulation_.target(h);
+      if(!conditions.is_bounded(v))
+        continue;
+      for(const Index w : {v, twofold.triangulation.origin(twofold.image(h))})
+        result.prescribe_angle_sum_above(w, Exact_angle<NT>(result.angle_sum(w)), NT(conditions.lower_bound(v)));
+    }
+    return result;
+  }
+
+  // The intrinsic Delaunay triangulation of the metric given, by Euclidean flips.
+  bool make_delaunay(Flip_observer& observer, Metric& result) const
+  {
+    const auto length = [&](Index h) { return triangulation_.halfedge_length(h); };
+    for(Index h = 0; h < triangulation_.number_of_halfedges(); h += 3)
+      if(!internal::is_triangle(length(h), length(h + 1), length(h + 2))
+         && !internal::is_degenerate_triangle(length(h), length(h + 1), length(h + 2)))
+        result.faces.push_back(h / 3);
+    if(!result.faces.empty())
+    {
+      result.status = Status::DEGENERATE_METRIC;
+      return false;
+    }
+    std::vector<Index> all(triangulation_.number_of_edges()), flipped;
+    std::iota(all.begin(), all.end(), Index(0));
+    internal::Delaunay_flipper<NT> flipper(result.triangulation);
+    flipper.flip_to_delaunay(std::vector<double>(), std::move(all), internal::Flip_rule::EUCLIDEAN, [&](Index e)
+    {
+      observer.before_flip(result.triangulation, e);
+      flipped.push_back(e);
+    });
+    for(Index e : flipped)
+      observer.after_flip(result.triangulation, e);
+    return true;
+  }
+
+  // Newton's method and what follows, on `t`, which the energy may flip.
+  template <typename Any_energy, typename Initial, typename Visitor>
+  void minimize(const Triangulation& t, Any_energy& energy, const Conformal_conditions<NT>& conditions, const Initial& initial,
+                const internal::Newton_options& options, Visitor& visitor, Metric& result)
+  {
     linear_.set_free(free_vertices(conditions));
+    const internal::Lower_bounds bounds = lower_bounds(conditions);
+    hold_one_of_each(bounds);
     const std::size_t factorizations_before = linear_.number_of_factorizations();
 
     Vertex_vector u;
-    result.status = first_guess(conditions, initial, u) ? Status::OK : Status::SINGULAR_PROBLEM;
+    result.status = first_guess(energy, conditions, initial, u) ? Status::OK : Status::SINGULAR_PROBLEM;
     if(result.status == Status::OK)
     {
       const Vertex_vector target = targets(conditions);
-      internal::Newton_method<Energy, Solver_traits, Visitor>
-        newton(*energy_, linear_, target, options, result.statistics, visitor);
+      internal::Newton_method<Any_energy, Solver_traits, Visitor>
+        newton(energy, linear_, target, options, result.statistics, visitor, bounds);
       result.status = newton(u);
     }
-    if(result.status == Status::OK)
-      refine(conditions, u, options.tolerance, result);
+    if(result.status == Status::OK && bounds.empty())
+      refine(t, energy, conditions, u, options.tolerance, result);
+    else if(result.status == Status::OK)
+      refine_within_bounds(t, energy, conditions, bounds, u, options.tolerance, result);
+    if(is_success(result.status) && conditions.has_bounds())
+      settle(conditions, result.scale_factors);
+    if(is_success(result.status))
+      keep(result.scale_factors, conditions, u, result);
     result.statistics.number_of_factorizations = linear_.number_of_factorizations() - factorizations_before;
     result.statistics.number_of_regularized_rows = linear_.number_of_regularized_rows();
-    judge(result);
+    judge(t, energy, result);
   }
 
-  bool check(Conformal_conditions<NT>& conditions, Metric& result) const
+  bool check(Conformal_conditions<NT>& conditions, bool triangulation_is_fixed, Metric& result)
   {
     CGAL_precondition(conditions.size() == triangulation_.number_of_vertices());
     if(triangulation_.number_of_faces() == 0)
@@ -239,21 +416,22 @@ private:
       result.status = Status::EMPTY_MESH;
       return false;
     }
-    const internal::Feasibility feasibility = internal::make_feasible(triangulation_, pieces_, conditions);
+    const internal::Feasibility feasibility = internal::make_feasible(triangulation_, pieces_, conditions, triangulation_is_fixed);
     result.status = feasibility.status;
     result.amount = feasibility.amount;
     result.vertices = feasibility.vertices;
     result.faces = feasibility.faces;
     result.statistics.angle_defect_spread = feasibility.angle_defect_spread;
+    rests_on_bounds_ = feasibility.rests_on_bounds;
     return feasibility.status == Status::OK;
   }
 
-  // The vertices at which u is unknown. Where a component has no fixed u, its first vertex is held,
+  // The vertices at which u is unknown. Where a component has no fixed u and no active bound, its first vertex is held,
   // which changes nothing but the scale.
   std::vector<char> free_vertices(const Conformal_conditions<NT>& conditions)
   {
     std::vector<char> free(triangulation_.number_of_vertices(), 0);
-    std::vector<char> has_fixed(pieces_.components.size(), 0);
+    std::vector<char> has_fixed = rests_on_bounds_;
     for(Index v = 0; v < triangulation_.number_of_vertices(); ++v)
     {
       if(triangulation_.is_isolated_vertex(v))
@@ -280,10 +458,47 @@ private:
     return result;
   }
 
+  // Those of the components whose scale they determine.
+  internal::Lower_bounds lower_bounds(const Conformal_conditions<NT>& conditions) const
+  {
+    internal::Lower_bounds result;
+    if(!conditions.has_bounds())
+      return result;
+    const Index n = triangulation_.number_of_vertices();
+    result.bound.assign(n, -std::numeric_limits<double>::infinity());
+    result.resting.assign(n, Triangulation::null_index);
+    result.number_of_components = Index(pieces_.components.size());
+    bool is_empty = true;
+    for(Index v = 0; v < n; ++v)
+    {
+      if(triangulation_.is_isolated_vertex(v))
+        continue;
+      const Index c = pieces_.component_of_vertex[v];
+      if(rests_on_bounds_[c])
+        result.resting[v] = c;
+      if(!conditions.is_bounded(v) || floating_[c])
+        continue;
+      result.bound[v] = static_cast<double>(conditions.lower_bound(v));
+      is_empty = false;
+    }
+    return is_empty ? internal::Lower_bounds() : result;
+  }
+
+  // Else the matrix of a component that rests on its bounds is singular.
+  void hold_one_of_each(const internal::Lower_bounds& bounds)
+  {
+    if(bounds.empty())
+      return;
+    std::vector<char> held(triangulation_.number_of_vertices(), 0);
+    for(const Index v : bounds.largest([](Index) { return 0; }))
+      held[v] = 1;
+    linear_.hold(std::move(held));
+  }
+
   // The given u, else the last solution; at first the harmonic extension of the fixed u. The
   // factor, if there is none, is that of the Hessian at u = 0.
-  template <typename Initial>
-  bool first_guess(const Conformal_conditions<NT>& conditions, const Initial& initial, Vertex_vector& u)
+  template <typename Any_energy, typename Initial>
+  bool first_guess(Any_energy& energy, const Conformal_conditions<NT>& conditions, const Initial& initial, Vertex_vector& u)
   {
     const bool has_last = !last_u_.empty();
     u = has_last ? last_u_ : Vertex_vector(triangulation_.number_of_vertices(), 0.);
@@ -300,16 +515,16 @@ private:
       return true; // the first Newton step will factorize
     if(!linear_.has_factor())
     {
-      energy_->evaluate(Vertex_vector(u.size(), 0.));
-      if(!linear_.factorize(energy_->weights()))
+      energy.evaluate(Vertex_vector(u.size(), 0.));
+      if(!linear_.factorize(energy.weights()))
         return false;
     }
     if(!is_moved)
       return true;
 
     Vertex_vector pull, extension;
-    energy_->evaluate(Vertex_vector(u.size(), 0.));
-    pull = linear_.graph().product(energy_->weights(), step);
+    energy.evaluate(Vertex_vector(u.size(), 0.));
+    pull = linear_.graph().product(energy.weights(), step);
     for(double& x : pull)
       x = -x;
     if(!linear_.precondition(pull, extension))
@@ -336,7 +551,9 @@ private:
 
   // The last steps, with the residual in the wide type and the linear systems in double.
   // A step with error e^3 in s is as good as any: what counts is the s that comes out.
-  void refine(const Conformal_conditions<NT>& conditions, Vertex_vector& u, double tolerance, Metric& result)
+  template <typename Any_energy>
+  void refine(const Triangulation& t, const Any_energy& energy, const Conformal_conditions<NT>& conditions,
+              Vertex_vector& u, double tolerance, Metric& result)
   {
     using std::exp;
     center(u);
@@ -346,7 +563,7 @@ private:
       s[v] = conditions.is_fixed(v) ? Wide_number(exp(Wide_number(conditions.log_scale_factor(v)) / 2))
                                     : Wide_number(exp(u[v] / 2));
 
-    Vertex_vector residual = internal::wide_residual(triangulation_, s, conditions);
+    Vertex_vector residual = internal::wide_residual(t, s, conditions);
     double size = internal::largest_entry(residual);
     const double goal = 1e-4 * tolerance; // so that layouts are not spoiled by the sum of all residuals
     for(int step = 0; step < 50 && size > goal; ++step)
@@ -355,13 +572,13 @@ private:
       Vertex_vector d;
       bool converged;
       result.statistics.number_of_linear_iterations
-        += linear_.conjugate_gradients(energy_->weights(), residual, (std::max)(1e-3, 0.3 * goal / size), 100, d, converged);
+        += linear_.conjugate_gradients(energy.weights(), residual, (std::max)(1e-3, 0.3 * goal / size), 100, d, converged);
       center(d);
       std::vector<Wide_number> moved = s;
       for(Index v = 0; v < u.size(); ++v)
         if(d[v] != 0)
           moved[v] = s[v] + s[v] * (d[v] / 2 + d[v] * d[v] / 8);
-      residual = internal::wide_residual(triangulation_, moved, conditions);
+      residual = internal::wide_residual(t, moved, conditions);
       const double moved_size = internal::largest_entry(residual);
       if(!(moved_size < size))
         break;
@@ -380,47 +597,137 @@ private:
       result.status = size <= result.statistics.residual_floor ? Status::CONVERGED_TO_ROUNDING
                                                                : Status::ITERATIONS_EXHAUSTED;
     }
-    if(is_success(result.status))
-      keep(s, u, result);
   }
 
-  void keep(const std::vector<Wide_number>& s, Vertex_vector& u, Metric& result)
+  // The same with some of the bounds active, as the solution has them: where Newton's method could not tell by
+  // rounding, the wide type does.
+  template <typename Any_energy>
+  void refine_within_bounds(const Triangulation& t, const Any_energy& energy, const Conformal_conditions<NT>& conditions,
+                            const internal::Lower_bounds& bounds, Vertex_vector& u, double tolerance, Metric& result)
+  {
+    std::vector<char> active(u.size(), 0);
+    for(Index v = 0; v < u.size(); ++v)
+      active[v] = u[v] <= bounds.bound[v];
+    for(int attempt = 0; attempt < 20; ++attempt)
+    {
+      Conformal_conditions<NT> equalities = conditions;
+      for(Index v = 0; v < u.size(); ++v)
+        if(active[v])
+          equalities.fix_log_scale_factor(v, NT(conditions.lower_bound(v)));
+      linear_.hold(active);
+      result.status = Status::OK;
+      refine(t, energy, equalities, u, tolerance, result);
+      if(!is_success(result.status) || !exchange_bounds(t, energy, conditions, bounds, tolerance, result, active))
+        return;
+      for(Index v = 0; v < u.size(); ++v)
+        u[v] = active[v] ? bounds.bound[v] : static_cast<double>(logarithm(result.scale_factors[v]));
+    }
+    result.status = Status::ITERATIONS_EXHAUSTED;
+  }
+
+  // Activates the bounds that are violated, and releases those where the angle sum is too large. Returns whether there were any.
+  template <typename Any_energy>
+  bool exchange_bounds(const Triangulation& t, const Any_energy& energy, const Conformal_conditions<NT>& conditions,
+                       const internal::Lower_bounds& bounds, double tolerance, const Metric& result, std::vector<char>& active) const
+  {
+    const double most = (std::max)(tolerance, result.statistics.residual);
+    const Vertex_vector target = targets(conditions);
+    Vertex_vector residual = internal::wide_residual(t, result.scale_factors, conditions);
+    for(Index v = 0; v < residual.size(); ++v)
+      if(std::abs(energy.angle_sums()[v] - target[v]) > 1e-3) // the wide one is known up to multiples of 4 pi
+        residual[v] = energy.angle_sums()[v] - target[v];
+    bool is_changed = false;
+    for(Index v = 0; v < active.size(); ++v)
+    {
+      if(!bounds.has(v) || (active[v] ? !(residual[v] > most) : !(result.scale_factors[v] < least_factor(conditions, v))))
+        continue;
+      active[v] = !active[v];
+      is_changed = true;
+    }
+    return is_changed;
+  }
+
+  // e^{b/2} for the bound b at v
+  static Wide_number least_factor(const Conformal_conditions<NT>& conditions, Index v)
+  {
+    using std::exp;
+    return Wide_number(exp(Wide_number(conditions.lower_bound(v)) / 2));
+  }
+
+  // Scales the components where the bounds determine nothing but the scale: the least that they allow.
+  void settle(const Conformal_conditions<NT>& conditions, std::vector<Wide_number>& s) const
+  {
+    std::vector<Wide_number> factor(pieces_.components.size(), Wide_number(0));
+    for(Index v = 0; v < s.size(); ++v)
+    {
+      if(triangulation_.is_isolated_vertex(v) || !conditions.is_bounded(v) || !floating_[pieces_.component_of_vertex[v]])
+        continue;
+      const Wide_number needed = least_factor(conditions, v) / s[v];
+      Wide_number& largest = factor[pieces_.component_of_vertex[v]];
+      if(largest < needed)
+        largest = needed;
+    }
+    for(Index v = 0; v < s.size(); ++v)
+      if(!triangulation_.is_isolated_vertex(v) && Wide_number(0) < factor[pieces_.component_of_vertex[v]])
+        s[v] = s[v] * factor[pieces_.component_of_vertex[v]];
+  }
+
+  // u of e^{u/2}
+  static NT logarithm(const Wide_number& s)
   {
     using std::log;
+    if constexpr(std::is_same<NT, double>::value)
+      return 2 * (std::log(s.hi) + s.lo / s.hi);
+    else
+      return static_cast<NT>(2 * log(s));
+  }
+
+  void keep(const std::vector<Wide_number>& s, const Conformal_conditions<NT>& conditions, Vertex_vector& u, Metric& result)
+  {
+    using std::abs;
     result.log_scale_factors.resize(u.size());
     for(Index v = 0; v < u.size(); ++v)
     {
-      if constexpr(std::is_same<NT, double>::value)
-        result.log_scale_factors[v] = 2 * (std::log(s[v].hi) + s[v].lo / s[v].hi);
-      else
-        result.log_scale_factors[v] = static_cast<NT>(2 * log(s[v]));
-      u[v] = static_cast<double>(result.log_scale_factors[v]);
+      NT& x = result.log_scale_factors[v];
+      x = logarithm(s[v]);
+      if(conditions.is_bounded(v) && !triangulation_.is_isolated_vertex(v))
+      {
+        const NT& bound = conditions.lower_bound(v);
+        const NT rounding = 4 * std::numeric_limits<NT>::epsilon() * (1 + abs(bound));
+        if(x - bound <= rounding)
+        {
+          x = bound;
+          result.active_bounds.push_back(v);
+        }
+      }
+      u[v] = static_cast<double>(x);
     }
     last_u_ = u;
   }
 
   // Names the triangles that the metric found breaks: exactly for a solution, as the last
   // evaluation saw them otherwise.
-  void judge(Metric& result) const
+  template <typename Any_energy>
+  void judge(const Triangulation& t, const Any_energy& energy, Metric& result) const
   {
     if(!is_success(result.status))
     {
       if(result.status == Status::ITERATIONS_EXHAUSTED)
       {
-        result.faces = energy_->broken_faces();
+        result.faces = energy.broken_faces();
         result.amount = result.statistics.residual;
       }
       result.scale_factors.clear();
       return;
     }
     const std::vector<Wide_number>& s = result.scale_factors;
-    for(Index f = 0; f < triangulation_.number_of_faces(); ++f)
+    for(Index f = 0; f < t.number_of_faces(); ++f)
     {
-      const Index i = triangulation_.origin(3 * f), j = triangulation_.origin(3 * f + 1), k = triangulation_.origin(3 * f + 2);
+      const Index i = t.origin(3 * f), j = t.origin(3 * f + 1), k = t.origin(3 * f + 2);
       if(!internal::is_scaled_triangle(s[i], s[j], s[k],
-                                       Wide_number(triangulation_.halfedge_length(3 * f)),
-                                       Wide_number(triangulation_.halfedge_length(3 * f + 1)),
-                                       Wide_number(triangulation_.halfedge_length(3 * f + 2))))
+                                       Wide_number(t.halfedge_length(3 * f)),
+                                       Wide_number(t.halfedge_length(3 * f + 1)),
+                                       Wide_number(t.halfedge_length(3 * f + 2))))
         result.faces.push_back(f);
     }
     if(!result.faces.empty())
@@ -431,8 +738,10 @@ private:
   Surface_components pieces_;
   internal::Laplacian_solver<Solver_traits> linear_;
   std::unique_ptr<Energy> energy_;
-  std::vector<char> floating_;  // components without a fixed u
+  std::vector<char> rests_on_bounds_; // components without a fixed u where some bounds are active
+  std::vector<char> floating_;  // components whose scale nothing determines
   Vertex_vector last_u_;
+  bool linear_has_flips_ = false; // the edges of `linear_` are not those of `triangulation_`
 };
 
 /// \ingroup PkgConformalEquivalenceSolver

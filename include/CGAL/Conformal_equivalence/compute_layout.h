@@ -21,6 +21,8 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/internal/double.h>
+#include <CGAL/Conformal_equivalence/internal/flipped_development.h>
 #include <CGAL/Conformal_equivalence/internal/layout_frames.h>
 #include <CGAL/Conformal_equivalence/internal/period_lattice.h>
 #include <CGAL/Conformal_equivalence/internal/pieces.h>
@@ -61,6 +63,8 @@ public:
       metric_(metric), t_(metric.triangulation), cut_(cut), wedges_(wedges),
       is_placed_(wedges.number_of_wedges, 0)
   {}
+
+  Wide length(Index h) const { return metric_.wide_scaled_length(h); }
 
   // Lays out everything that is connected with `root`.
   void operator()(Index root)
@@ -124,13 +128,12 @@ private:
 };
 
 // Rounds the positions and measures by how much lengths have changed, in the faces that are laid out.
-template <typename NT>
-void round_positions(const Conformal_metric<NT>& metric, const Cut_graph& cut, const Wedges& wedges,
-                     const Development<NT>& development, const NT& scale, Layout<NT>& layout)
+template <typename NT, typename Developed>
+void round_positions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut, const Wedges& wedges,
+                     const Developed& development, const NT& scale, Layout<NT>& layout)
 {
   using std::abs;
   using std::sqrt;
-  const Intrinsic_triangulation<NT>& t = metric.triangulation;
   layout.corner.resize(t.number_of_halfedges(), std::array<NT, 2>{{NT(0), NT(0)}});
   for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
   {
@@ -149,7 +152,7 @@ void round_positions(const Conformal_metric<NT>& metric, const Cut_graph& cut, c
   for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
   {
     const std::uint32_t h = t.edge_halfedge(e), g = t.twin(h);
-    const NT length = metric.scaled_length(h) * scale;
+    const NT length = static_cast<NT>(development.length(h)) * scale;
     if(development.is_laid_out[t.face(h)])
       measure(h, length);
     if(cut[e] && !t.is_border(h) && development.is_laid_out[t.face(g)])
@@ -158,13 +161,13 @@ void round_positions(const Conformal_metric<NT>& metric, const Cut_graph& cut, c
 }
 
 // The motion across the cut edge of h.
-template <typename NT>
-Cut_motion<typename Development<NT>::Wide>
+template <typename NT, typename Developed>
+Cut_motion<typename Developed::Wide>
 find_motion(const Intrinsic_triangulation<NT>& t, const Wedges& wedges, const std::vector<std::uint32_t>& piece_of_face,
-            const Development<NT>& development, std::uint32_t h)
+            const Developed& development, std::uint32_t h)
 {
-  typedef typename Development<NT>::Wide Wide;
-  typedef typename Development<NT>::Complex Complex;
+  typedef typename Developed::Wide Wide;
+  typedef typename Developed::Complex Complex;
   using std::sqrt;
   const std::uint32_t g = t.twin(h);
   const auto corner = [&](std::uint32_t i) -> const Complex& { return development.position[wedges.of_corner[i]]; };
@@ -181,11 +184,11 @@ find_motion(const Intrinsic_triangulation<NT>& t, const Wedges& wedges, const st
 }
 
 // The motions across the cut edges between faces that are laid out, and the lattices of the flat tori.
-template <typename NT>
+template <typename NT, typename Developed>
 void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut, const Wedges& wedges,
-                      const Development<NT>& development, Layout<NT>& layout)
+                      const Developed& development, Layout<NT>& layout)
 {
-  typedef Cut_motion<typename Development<NT>::Wide> Motion;
+  typedef Cut_motion<typename Developed::Wide> Motion;
   const auto rounded = [](const auto& z) { return std::array<NT, 2>{{static_cast<NT>(z.re), static_cast<NT>(z.im)}}; };
   std::uint32_t number_of_pieces = 0;
   const std::vector<std::uint32_t> piece_of_face = pieces_of_faces(t, cut, number_of_pieces);
@@ -215,19 +218,57 @@ void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut
 }
 
 // Lays out the given pieces only.
-template <typename NT, typename Frame>
-Layout<NT> lay_out_pieces(const Conformal_metric<NT>& metric, const Cut_graph& cut, const Wedges& wedges,
-                          const std::vector<Piece>& pieces, const Frame& frame)
+template <typename NT, typename Developed, typename Frame>
+Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Cut_graph& cut, const Wedges& wedges,
+                          const std::vector<Piece>& pieces, const Frame& frame, Developed development)
 {
-  const Intrinsic_triangulation<NT>& t = metric.triangulation;
   Layout<NT> layout;
-  Development<NT> development(metric, cut, wedges);
   for(const Piece& piece : pieces)
     development(piece.central_face);
-  const NT scale = move_to_frame(t, wedges.of_corner, pieces, frame, development.position);
-  round_positions(metric, cut, wedges, development, scale, layout);
+  const NT scale = move_to_frame(input, wedges.of_corner, pieces, frame, development.position);
+  round_positions(input, cut, wedges, development, scale, layout);
   if(!cut.is_cut.empty())
-    find_transitions(t, cut, wedges, development, layout);
+    find_transitions(input, cut, wedges, development, layout);
+  return layout;
+}
+
+template <typename NT, typename Frame>
+Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
+                          const Wedges& wedges, const std::vector<Piece>& pieces, const Frame& frame)
+{
+  if(!metric.is_retriangulated())
+    return lay_out_pieces(input, cut, wedges, pieces, frame, Development<NT>(metric, cut, wedges));
+  Flipped_development<NT> development(input, metric, cut, wedges);
+  std::vector<NT> lengths;
+  lengths.reserve(input.number_of_edges());
+  for(std::uint32_t e = 0; e < input.number_of_edges(); ++e)
+    lengths.push_back(static_cast<NT>(development.length(input.edge_halfedge(e))));
+  Layout<NT> layout = lay_out_pieces(input, cut, wedges, pieces, frame, std::move(development));
+  layout.straight_lengths = std::move(lengths);
+  return layout;
+}
+
+// Lays out the pieces for which is_wanted(piece).
+template <typename NT, typename Frame, typename Is_wanted>
+Layout<NT> lay_out(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
+                   const Frame& frame, Is_wanted is_wanted)
+{
+  const Wedges wedges = find_wedges(input, cut);
+  std::vector<Piece> pieces = find_pieces(input, cut, wedges);
+  pieces.erase(std::remove_if(pieces.begin(), pieces.end(), [&](const Piece& piece) { return !is_wanted(piece); }), pieces.end());
+  return lay_out_pieces(input, metric, cut, wedges, pieces, frame);
+}
+
+// Of a metric of the double: cut along the border, only the surface itself.
+template <typename NT, typename Frame, typename Is_wanted>
+Layout<NT> lay_out_half(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
+                        const Frame& frame, Is_wanted is_wanted)
+{
+  const Surface_double<NT> twofold(input);
+  Layout<NT> layout = lay_out(twofold.triangulation, metric, twofold.cut(input, cut), frame, [&](const Piece& piece)
+    { return piece.faces.front() < input.number_of_faces() && is_wanted(piece); });
+  layout.corner.resize(input.number_of_halfedges());
+  layout.straight_lengths.resize(input.number_of_edges());
   return layout;
 }
 
@@ -235,8 +276,10 @@ Layout<NT> lay_out_pieces(const Conformal_metric<NT>& metric, const Cut_graph& c
 
 /// \ingroup PkgConformalEquivalenceLayout
 ///
-/// lays out the flat surface of `metric`, cut along `cut`, in the plane. Linear time; the work runs in
-/// `Conformal_metric::Wide_number`. The surface may have any number of components, and the cuts may leave it in any number of
+/// lays out the flat surface of `metric`, cut along `cut`, in the plane: a point for every corner of the triangulation that was given to the
+/// solver, whether it has been flipped or not. After flips the edges of that triangulation are no straight lines in the
+/// flat surface; `Layout::length_error` then is about the straight lines between their ends. Linear time, and the
+/// number of crossings of the two triangulations; the work runs in `Conformal_metric::Wide_number`. The surface may have any number of components, and the cuts may leave it in any number of
 /// pieces: they are put beside one another and do not overlap each other (one by itself may).
 ///
 /// \param input the triangulation that was given to the solver
@@ -255,7 +298,7 @@ Layout<NT> lay_out_pieces(const Conformal_metric<NT>& metric, const Cut_graph& c
 /// \cgalNamedParamsEnd
 ///
 /// \return the layout, with the motions across the cuts and the lattices of flat tori. Its status is `EMPTY_MESH` if there is no face.
-/// \pre `metric` is a success, with the triangulation `input`.
+/// \pre `metric` is a success; its triangulation is `input`, or was made from it by `Conformal_metric::flips`.
 template <typename NT, typename NamedParameters = parameters::Default_named_parameters>
 Layout<NT> compute_layout(const Intrinsic_triangulation<NT>& input,
                           const Conformal_metric<NT>& metric,
@@ -265,20 +308,17 @@ Layout<NT> compute_layout(const Intrinsic_triangulation<NT>& input,
   using parameters::choose_parameter;
   using parameters::get_parameter;
   CGAL_precondition(bool(metric));
-  CGAL_precondition(input.number_of_halfedges() == metric.triangulation.number_of_halfedges());
-  CGAL_USE(input);
-
-  const Intrinsic_triangulation<NT>& t = metric.triangulation;
-  if(t.number_of_faces() == 0)
+  CGAL_precondition(metric.triangulation.number_of_halfedges() == (metric.is_doubled ? 2 : 1) * input.number_of_halfedges());
+  if(input.number_of_faces() == 0)
   {
     Layout<NT> nothing;
     nothing.status = Status::EMPTY_MESH;
     return nothing;
   }
-  const internal::Wedges wedges = internal::find_wedges(t, cut);
-  return internal::lay_out_pieces(
-    metric, cut, wedges, internal::find_pieces(t, cut, wedges),
-    choose_parameter(get_parameter(np, internal_np::conformal_layout_frame), Layout_frame::CANONICAL));
+  const auto frame = choose_parameter(get_parameter(np, internal_np::conformal_layout_frame), Layout_frame::CANONICAL);
+  const auto all = [](const internal::Piece&) { return true; };
+  return metric.is_doubled ? internal::lay_out_half(input, metric, cut, frame, all)
+                           : internal::lay_out(input, metric, cut, frame, all);
 }
 
 } // namespace Conformal_equivalence

@@ -146,15 +146,37 @@ private:
   void solve(const NamedParameters& np)
   {
     const auto own_np = Conformal_equivalence::combine_named_parameters(np, initial_guess(np));
-    metric = compute_conformal_metric(std::move(mesh.triangulation), conditions_, own_np);
-    mesh.triangulation = metric.triangulation; // copied only now: the solver has freed its memory
+    const bool is_kept = parameters::choose_parameter(parameters::get_parameter(np, internal_np::conformal_retriangulation),
+                                                      Retriangulation::NEVER) == Retriangulation::NEVER;
+    if(is_kept)
+    {
+      metric = compute_conformal_metric(std::move(mesh.triangulation), conditions_, own_np);
+      mesh.triangulation = metric.triangulation; // copied only now: the solver has freed its memory
+    }
+    else
+      metric = compute_conformal_metric(mesh.triangulation, conditions_, own_np);
 
     const Statistics::Seconds seconds = report.statistics.seconds;
     report.statistics = metric.statistics;
     report.statistics.seconds.import = seconds.import;
     report.status = metric.status;
     report.amount = metric.amount;
-    name_elements(mesh, metric.vertices, metric.edges, metric.faces, report);
+    if(metric.is_retriangulated()) // its faces are not those of the mesh
+      name_elements(mesh, vertices_of_faces(metric), {}, {}, report);
+    else
+      name_elements(mesh, metric.vertices, metric.edges, metric.faces, report);
+  }
+
+  std::vector<Index> vertices_of_faces(const Conformal_metric<double>& metric) const
+  {
+    std::vector<Index> result = metric.vertices;
+    for(Index f : metric.faces)
+      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+        if(metric.triangulation.origin(h) < mesh.triangulation.number_of_vertices()) // and not of the mirror image
+          result.push_back(metric.triangulation.origin(h));
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
   }
 
   // The map of initial u is keyed by descriptors here, by indices in the solver.
@@ -261,14 +283,16 @@ private:
   template <typename NamedParameters>
   void lay_out_piece(Index face, const NamedParameters& np)
   {
-    const Wedges wedges = find_wedges(mesh.triangulation, cut);
-    std::vector<Piece> pieces = find_pieces(mesh.triangulation, cut, wedges);
-    const auto is_elsewhere = [&](const Piece& piece)
-      { return !std::binary_search(piece.faces.begin(), piece.faces.end(), face); };
-    pieces.erase(std::remove_if(pieces.begin(), pieces.end(), is_elsewhere), pieces.end());
-    layout = lay_out_pieces(metric, cut, wedges, pieces, frame(np));
+    const auto is_wanted = [&](const Piece& piece)
+    {
+      const bool result = std::binary_search(piece.faces.begin(), piece.faces.end(), face);
+      if(result)
+        faces_laid_out_ = piece.faces;
+      return result;
+    };
+    layout = metric.is_doubled ? lay_out_half(mesh.triangulation, metric, cut, frame(np), is_wanted)
+                               : internal::lay_out(mesh.triangulation, metric, cut, frame(np), is_wanted);
     report.layout_length_error = layout.length_error;
-    faces_laid_out_ = std::move(pieces.front().faces);
   }
 
   template <typename NamedParameters>
@@ -321,9 +345,10 @@ private:
   double angle_sum(Index v) const
   {
     double result = 0;
-    mesh.triangulation.for_each_outgoing(v, [&](Index h)
+    const Intrinsic_triangulation<double>& t = metric.triangulation;
+    t.for_each_outgoing(v, [&](Index h)
     {
-      const Incircle_form<Double_double> triangle = wide_triangle(mesh.triangulation, metric.scale_factors, h / 3);
+      const Incircle_form<Double_double> triangle = wide_triangle(t, metric.scale_factors, h / 3);
       result += 2 * std::atan2(to_double(triangle.r), to_double(triangle.tangent[(h + 1) % 3]));
     });
     return result;
@@ -375,7 +400,8 @@ void write_metric(const Flattening<TriangleMesh>& flattening, const NamedParamet
   if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_scaled_length_t>::value)
     for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
       put(get_parameter(np, internal_np::conformal_scaled_length), mesh.edge(e),
-          flattening.metric.scaled_length(t.edge_halfedge(e)));
+          flattening.layout.straight_lengths.empty() ? flattening.metric.scaled_length(t.edge_halfedge(e))
+                                                     : flattening.layout.straight_lengths[e]);
 }
 
 // Writes the corners to all halfedges of imported faces; a halfedge without a face
@@ -441,7 +467,11 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 ///
 /// The mesh may be closed or have any number of borders, none of which is filled, any number of handles, and any number of
 /// components, each of which is a problem of its own. The layouts of the components do not overlap one another. Isolated vertices
-/// are carried through untouched. The triangulation is kept.
+/// are carried through untouched.
+///
+/// The triangulation is kept unless `retriangulation` says otherwise. If edges were flipped, length cross ratios are not preserved, as
+/// it is another triangulation that was scaled; points are written for the corners of the mesh, whose edges are no straight
+/// lines in the flat surface, and a straight triangle between these points may be flipped, which is reported (`NOT_INJECTIVE`).
 ///
 /// *Cones* are interior vertices whose angle sum is prescribed (`cone_angle_map`) and not 2 pi, or where u is prescribed instead
 /// (`vertex_is_constrained_map`: a free cone). On a component where no u is prescribed, the curvatures 2 pi - angle at interior vertices
@@ -512,7 +542,7 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{scaled_edge_length_map}
-///     \cgalParamDescription{receives the lengths of the flat metric}
+///     \cgalParamDescription{receives the lengths of the edges in the flat metric, or, if edges were flipped, of the straight lines that replace them}
 ///     \cgalParamType{a writable property map with key type `boost::graph_traits<TriangleMesh>::%edge_descriptor` and value type `double`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd

@@ -62,11 +62,18 @@ public:
     : t_(t), scale_(t.number_of_vertices(), NT(1)),
       angle_sum_(t.number_of_vertices()), weight_(t.number_of_edges()), sum_(t.number_of_vertices())
   {
+    exponent_ = normalize ? middle_exponent() : 0;
+    length_.resize(t.number_of_edges());
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      update_length(e);
+  }
+
+  // The length of `e` has changed.
+  void update_length(Index e)
+  {
     using std::ldexp;
-    const int exponent = normalize ? middle_exponent() : 0;
-    length_.reserve(t.number_of_edges());
-    for(const Length& l : t.lengths())
-      length_.push_back(static_cast<NT>(exponent == 0 ? l : Length(ldexp(l, -exponent))));
+    const Length& l = t_.length(e);
+    length_[e] = static_cast<NT>(exponent_ == 0 ? l : Length(ldexp(l, -exponent_)));
   }
 
   // moves to u: computes angle sums and edge weights there.
@@ -111,6 +118,7 @@ public:
   }
 
   const NT& scale(Index v) const { return scale_[v]; }
+  const std::vector<NT>& scales() const { return scale_; }
   NT scaled_length(Index h) const
   {
     return scale_[t_.origin(h)] * length_[t_.edge(h)] * scale_[t_.target(h)];
@@ -202,6 +210,7 @@ private:
   }
 
   const Triangulation& t_;
+  int exponent_ = 0; // lengths are divided by this power of two
   std::vector<NT> length_, scale_, angle_sum_, weight_;
   std::vector<Angle_sum<NT> > sum_;
   std::vector<Index> broken_;

@@ -5,11 +5,14 @@
 // Schroeder and Pinkall, 2008), decided before anything is computed and without
 // rounding where the angles are rational multiples of pi.
 //
-// On each component, with F the vertices of fixed u:
-//   F empty:     sum (2 pi - Theta^) + sum over border (pi - Theta^) = 2 pi chi (Gauss-Bonnet);
-//   F not empty: the same formula leaves F a total angle, which must be positive.
+// On each component, with F the vertices of fixed u and B those of bounded u:
+//   F and B empty:   sum (2 pi - Theta^) + sum over border (pi - Theta^) = 2 pi chi (Gauss-Bonnet);
+//   F or B nonempty: the angles prescribed outside of F and B leave these a total angle, which must be positive: else E
+//                    decreases forever if u does outside of F and B;
+//   F empty, B not:  also, the left side of the formula is at most the right one: else E decreases forever if u grows. If
+//                    the sides are equal, E does not change then: the bounds only settle the scale.
 // A closed surface without cones other than a torus is told apart from a mere violation.
-// And 0 < Theta^ < pi * (number of triangles) at every vertex.
+// And 0 < Theta^ at every vertex; on a fixed triangulation also Theta^ < pi * (number of triangles), unless u is bounded.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_FEASIBILITY_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_FEASIBILITY_H
@@ -19,6 +22,7 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Double_double.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -34,27 +38,49 @@ struct Feasibility
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> faces; // one of every closed surface that lacks cones
   double angle_defect_spread = 0;
+  std::vector<char> rests_on_bounds; // by component: nothing is fixed, and some bounds are active with an angle sum below their target
 };
 
 // Defects below this come from angles that were written with few digits.
 inline double negligible_angle_defect() { return 1e-9; }
 
-// The total angle of one component that the prescribed angles do not use up.
+// A sum of many angles.
 template <typename NT>
-struct Angle_balance
+struct Total_angle
 {
   std::int64_t units = 0;      // of pi / 2520
   Double_double rest = 0;      // radians
-  std::vector<std::uint32_t> fixed;   // vertices of fixed u
-  std::vector<std::uint32_t> curved;  // vertices whose target is neither 2 pi, inside, nor pi, on the border
-  std::vector<std::uint32_t> inexact; // vertices whose target is no exact multiple
 
+  void add(const Exact_angle<NT>& angle)
+  {
+    units += angle.units;
+    rest += Double_double(static_cast<double>(angle.rest));
+  }
+  void subtract(const Exact_angle<NT>& angle)
+  {
+    units -= angle.units;
+    rest -= Double_double(static_cast<double>(angle.rest));
+  }
   double radians() const
   {
     const Double_double unit = Number_constants<Double_double>::pi() / int(Exact_angle<NT>::units_of_pi);
     return to_double(unit * units + rest);
   }
   bool is_zero() const { return units == 0 && rest == Double_double(0); }
+};
+
+// The total angle of one component that the prescribed angles do not use up.
+template <typename NT>
+struct Angle_balance
+{
+  Total_angle<NT> left;               // by all that are prescribed
+  Total_angle<NT> left_for_bounds;    // by those where u is not bounded
+  std::vector<std::uint32_t> fixed;   // vertices of fixed u
+  std::vector<std::uint32_t> bounded; // vertices of bounded u
+  std::vector<std::uint32_t> curved;  // vertices whose target is neither 2 pi, inside, nor pi, on the border
+  std::vector<std::uint32_t> inexact; // vertices whose target is no exact multiple
+
+  double radians() const { return left.radians(); }
 };
 
 // Gauss-Bonnet says: the sum of all angle sums is 2 pi |V| - pi |V of the border| - 2 pi chi.
@@ -66,24 +92,28 @@ std::vector<Angle_balance<NT> > angle_balances(const Intrinsic_triangulation<NT>
   const std::int64_t pi = Exact_angle<NT>::units_of_pi;
   std::vector<Angle_balance<NT> > balance(pieces.components.size());
   for(std::size_t c = 0; c < balance.size(); ++c)
-    balance[c].units = -2 * pi * pieces.components[c].euler_characteristic();
+    balance[c].left.units = balance[c].left_for_bounds.units = -2 * pi * pieces.components[c].euler_characteristic();
   for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
   {
     if(t.is_isolated_vertex(v))
       continue;
     Angle_balance<NT>& b = balance[pieces.component_of_vertex[v]];
     const std::int64_t flat = t.is_border_vertex(v) ? pi : 2 * pi;
-    b.units += flat;
+    b.left.units += flat;
+    b.left_for_bounds.units += flat;
     if(conditions.is_fixed(v))
     {
       b.fixed.push_back(v);
       continue;
     }
     const Exact_angle<NT>& angle = conditions.angle_sum(v);
-    b.units -= angle.units;
+    b.left.subtract(angle);
+    if(conditions.is_bounded(v))
+      b.bounded.push_back(v);
+    else
+      b.left_for_bounds.subtract(angle);
     if(angle.units != flat || !angle.is_exact())
       b.curved.push_back(v);
-    b.rest -= Double_double(static_cast<double>(angle.rest));
     if(!angle.is_exact())
       b.inexact.push_back(v);
   }
@@ -100,7 +130,8 @@ Feasibility check_numbers(const Intrinsic_triangulation<NT>& t, const Conformal_
       continue;
     const double x = conditions.is_fixed(v) ? static_cast<double>(conditions.log_scale_factor(v))
                                             : conditions.angle_sum(v).template radians<double>();
-    if(!std::isfinite(x))
+    const double bound = conditions.is_bounded(v) ? static_cast<double>(conditions.lower_bound(v)) : 0;
+    if(!std::isfinite(x) || !std::isfinite(bound))
       result.vertices.push_back(v);
   }
   if(!result.vertices.empty())
@@ -109,7 +140,8 @@ Feasibility check_numbers(const Intrinsic_triangulation<NT>& t, const Conformal_
 }
 
 template <typename NT>
-Feasibility check_angle_ranges(const Intrinsic_triangulation<NT>& t, const Conformal_conditions<NT>& conditions)
+Feasibility check_angle_ranges(const Intrinsic_triangulation<NT>& t, const Conformal_conditions<NT>& conditions,
+                               bool triangulation_is_fixed)
 {
   Feasibility result;
   for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
@@ -121,7 +153,7 @@ Feasibility check_angle_ranges(const Intrinsic_triangulation<NT>& t, const Confo
     const double radians = angle.template radians<double>();
     const bool is_below = angle.is_exact() ? angle.units < most
                                            : radians < Number_constants<double>::pi() * t.degree(v);
-    if(radians > 0 && is_below)
+    if(radians > 0 && (is_below || !triangulation_is_fixed || conditions.is_bounded(v)))
       continue;
     if(result.vertices.empty())
       result.amount = radians;
@@ -135,7 +167,7 @@ Feasibility check_angle_ranges(const Intrinsic_triangulation<NT>& t, const Confo
 template <typename NT>
 bool lacks_cones(const Surface_components::Component& component, const Angle_balance<NT>& balance)
 {
-  return component.number_of_borders == 0 && balance.fixed.empty() && balance.curved.empty()
+  return component.number_of_borders == 0 && balance.fixed.empty() && balance.bounded.empty() && balance.curved.empty()
       && component.euler_characteristic() != 0;
 }
 
@@ -162,13 +194,26 @@ Feasibility unbalanced(const Intrinsic_triangulation<NT>& t, const Surface_compo
                        std::size_t c, const Angle_balance<NT>& balance)
 {
   Feasibility result;
-  result.status = balance.fixed.empty() ? Status::GAUSS_BONNET_VIOLATED : Status::NO_ANGLE_LEFT;
+  result.status = Status::GAUSS_BONNET_VIOLATED;
   result.amount = balance.radians();
-  result.vertices = balance.fixed.empty() ? balance.curved : balance.fixed;
+  result.vertices = balance.curved.empty() ? balance.bounded : balance.curved;
   if(result.vertices.empty())
     for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
       if(t.is_border_vertex(v) && pieces.component_of_vertex[v] == c)
         result.vertices.push_back(v);
+  return result;
+}
+
+// The error of a component whose angles leave nothing for the vertices where u is fixed or bounded.
+template <typename NT>
+Feasibility exhausted(const Angle_balance<NT>& balance)
+{
+  Feasibility result;
+  result.status = Status::NO_ANGLE_LEFT;
+  result.amount = balance.left_for_bounds.radians();
+  result.vertices = balance.fixed;
+  result.vertices.insert(result.vertices.end(), balance.bounded.begin(), balance.bounded.end());
+  std::sort(result.vertices.begin(), result.vertices.end());
   return result;
 }
 
@@ -183,7 +228,10 @@ void spread(double left, const std::vector<std::uint32_t>& vertices, Conformal_c
     const NT before = angle.rest;
     angle.rest += rest_left / NT(double(vertices.size() - i));
     rest_left -= angle.rest - before;
-    conditions.prescribe_angle_sum(vertices[i], angle);
+    if(conditions.is_bounded(vertices[i]))
+      conditions.prescribe_angle_sum_above(vertices[i], angle, NT(conditions.lower_bound(vertices[i])));
+    else
+      conditions.prescribe_angle_sum(vertices[i], angle);
   }
 }
 
@@ -191,11 +239,11 @@ void spread(double left, const std::vector<std::uint32_t>& vertices, Conformal_c
 // exact multiples of pi / 2520.
 template <typename NT>
 Feasibility make_feasible(const Intrinsic_triangulation<NT>& t, const Surface_components& pieces,
-                          Conformal_conditions<NT>& conditions)
+                          Conformal_conditions<NT>& conditions, bool triangulation_is_fixed = true)
 {
   Feasibility result = check_numbers(t, conditions);
   if(result.status == Status::OK)
-    result = check_angle_ranges(t, conditions);
+    result = check_angle_ranges(t, conditions, triangulation_is_fixed);
   if(result.status != Status::OK)
     return result;
   const std::vector<Angle_balance<NT> > balances = angle_balances(t, pieces, conditions);
@@ -203,16 +251,26 @@ Feasibility make_feasible(const Intrinsic_triangulation<NT>& t, const Surface_co
   if(result.status != Status::OK)
     return result;
 
+  result.rests_on_bounds.assign(balances.size(), 0);
   for(std::size_t c = 0; c < balances.size(); ++c)
   {
     const Angle_balance<NT>& balance = balances[c];
-    const double left = balance.radians();
-    if(balance.fixed.empty() ? balance.is_zero() : left > 0)
+    const bool is_free = balance.fixed.empty() && balance.bounded.empty();
+    if(!is_free && !(balance.left_for_bounds.radians() > 0))
+      return exhausted(balance);
+    if(!balance.fixed.empty() || balance.left.is_zero())
       continue;
-    if(!balance.fixed.empty() || std::abs(left) > negligible_angle_defect() || balance.inexact.empty())
+    const double left = balance.radians();
+    const bool is_negligible = std::abs(left) <= negligible_angle_defect() && !balance.inexact.empty();
+    if(is_negligible)
+    {
+      spread(left, balance.inexact, conditions);
+      result.angle_defect_spread += std::abs(left);
+    }
+    else if(!balance.bounded.empty() && left < 0)
+      result.rests_on_bounds[c] = 1;
+    else
       return unbalanced(t, pieces, c, balance);
-    spread(left, balance.inexact, conditions);
-    result.angle_defect_spread += std::abs(left);
   }
   return result;
 }

@@ -10,6 +10,12 @@
 // accurately as the step deserves (inexact Newton). The value of E is never
 // needed: it is too large to tell small steps apart. What is needed of it along a
 // step is its derivative, -r(u + t d).d / 2.
+//
+// Where there are lower bounds b on u, a step is the minimizer of the quadratic model of E
+// among the d >= b - u (sequential quadratic programming): what is minimized is convex, so that such a step
+// goes downhill too, and the active bounds are soon those of the solution. The quadratic program is solved by
+// block principal pivoting (J. J. Judice and F. M. Pires, 1994): the primal-dual active-set method, which ends after a
+// few rounds, made finite for every positive definite matrix.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NEWTON_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NEWTON_H
@@ -21,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -35,14 +42,61 @@ struct Newton_options
   Newton_strategy strategy = Newton_strategy::LINE_SEARCH;
 };
 
+// The bounds u >= b. In what rests on its bounds, nothing else keeps u from going down to minus infinity,
+// where E decreases steadily; so at least one bound is active there.
+struct Lower_bounds
+{
+  typedef std::uint32_t Index;
+  Vertex_vector bound;               // by vertex, minus infinity where there is none; empty if there is none at all
+  std::vector<Index> resting;        // by vertex: the component if that rests on its bounds, else null_index
+  Index number_of_components = 0;
+
+  bool empty() const { return bound.empty(); }
+  bool has(Index v) const { return bound[v] > -std::numeric_limits<double>::infinity(); }
+  bool is_resting(Index v) const { return resting[v] != Intrinsic_triangulation<>::null_index; }
+
+  // Moves every component that rests on its bounds down or up to them. Returns whether anything was moved.
+  bool settle(Vertex_vector& u) const
+  {
+    const double infinity = std::numeric_limits<double>::infinity();
+    Vertex_vector rise(number_of_components, -infinity);
+    for(Index v = 0; v < u.size(); ++v)
+      if(is_resting(v))
+        rise[resting[v]] = (std::max)(rise[resting[v]], bound[v] - u[v]);
+    bool is_moved = false;
+    for(Index v = 0; v < u.size(); ++v)
+      if(is_resting(v) && rise[resting[v]] != 0 && std::isfinite(rise[resting[v]]))
+      {
+        const double moved = u[v] + rise[resting[v]];
+        const double rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(u[v]) + std::abs(moved));
+        u[v] = moved - bound[v] <= rounding ? bound[v] : moved;
+        is_moved = true;
+      }
+    return is_moved;
+  }
+
+  // Of every component that rests on its bounds, the bounded vertex with the largest value.
+  template <typename Value>
+  std::vector<Index> largest(Value value) const
+  {
+    const Index none = Intrinsic_triangulation<>::null_index;
+    std::vector<Index> result(number_of_components, none);
+    for(Index v = 0; v < bound.size(); ++v)
+      if(is_resting(v) && has(v) && (result[resting[v]] == none || value(v) > value(result[resting[v]])))
+        result[resting[v]] = v;
+    result.erase(std::remove(result.begin(), result.end(), none), result.end());
+    return result;
+  }
+};
+
 template <typename Energy, typename SolverTraits, typename Visitor>
 class Newton_method
 {
 public:
   Newton_method(Energy& energy, Laplacian_solver<SolverTraits>& solver,
                 const Vertex_vector& target, const Newton_options& options,
-                Statistics& statistics, Visitor& visitor)
-    : energy_(energy), solver_(solver), target_(target), options_(options),
+                Statistics& statistics, Visitor& visitor, const Lower_bounds& bounds = Lower_bounds())
+    : energy_(energy), solver_(solver), target_(target), bounds_(bounds), options_(options),
       statistics_(statistics), visitor_(visitor)
   {}
 
@@ -50,11 +104,12 @@ public:
   // Returns OK, ITERATIONS_EXHAUSTED, SINGULAR_PROBLEM or STOPPED_BY_VISITOR.
   Status operator()(Vertex_vector& u)
   {
-    if(!evaluate(u, residual_))
+    if(!lift(u) || !evaluate(u, residual_))
       return Status::ITERATIONS_EXHAUSTED;
+    hold_active(u, 0);
     for(std::size_t iteration = 0; ; ++iteration)
     {
-      const double size = largest_entry(residual_);
+      const double size = violation(u);
       record(iteration, size);
       if(size <= (std::max)(options_.tolerance, rounding_floor()))
         return Status::OK;
@@ -69,6 +124,8 @@ public:
       if(!stepped)
         return size <= 10 * rounding_floor() ? Status::OK : Status::ITERATIONS_EXHAUSTED;
       ++statistics_.number_of_iterations;
+      if(!bounds_.empty() && bounds_.settle(u))
+        evaluate(u, residual_);
     }
   }
 
@@ -80,9 +137,62 @@ private:
     const bool is_finite = energy_.evaluate(u);
     r.resize(u.size());
     for(std::size_t v = 0; v < u.size(); ++v)
-      r[v] = energy_.angle_sums()[v] - target_[v];
-    solver_.graph().clear_fixed(r);
+      r[v] = solver_.graph().is_free(std::uint32_t(v)) ? energy_.angle_sums()[v] - target_[v] : 0;
     return is_finite;
+  }
+
+  // How far u is from the minimum: the largest entry of r, of which only positive ones count where a bound is active.
+  double violation(const Vertex_vector& u) const
+  {
+    if(bounds_.empty())
+      return largest_entry(residual_);
+    double result = 0;
+    for(std::uint32_t v = 0; v < u.size(); ++v)
+      result = (std::max)(result, is_at_bound(u, v, 0) ? residual_[v] : std::abs(residual_[v]));
+    return result;
+  }
+
+  bool is_at_bound(const Vertex_vector& u, std::uint32_t v, double distance) const
+  {
+    return u[v] - bounds_.bound[v] <= distance;
+  }
+
+  // Holds the vertices at their bounds, or as near to them, that are not pulled off, and at least one of each component
+  // that rests on its bounds.
+  void hold_active(const Vertex_vector& u, double distance)
+  {
+    if(bounds_.empty())
+      return;
+    const double infinity = std::numeric_limits<double>::infinity();
+    active_.assign(u.size(), 0);
+    for(std::uint32_t v = 0; v < u.size(); ++v)
+      active_[v] = is_at_bound(u, v, distance) && residual_[v] <= 0;
+    for(const std::uint32_t v : bounds_.largest([&](std::uint32_t w) { return active_[w] ? infinity : bounds_.bound[w] - u[w]; }))
+      active_[v] = 1;
+    solver_.hold(active_);
+  }
+
+  // Makes u satisfy the bounds, by a change that is as harmonic as can be.
+  bool lift(Vertex_vector& u)
+  {
+    if(bounds_.empty())
+      return true;
+    bounds_.settle(u);
+    bool is_feasible = true;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      is_feasible = is_feasible && u[v] >= bounds_.bound[v];
+    if(is_feasible)
+      return true;
+    if(!evaluate(u, residual_))
+      return false;
+    residual_.assign(u.size(), 0.);
+    hold_active(u, 0);
+    Vertex_vector d;
+    if(!bounded_step(u, 1e-3, d))
+      return false;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      u[v] = (std::max)(u[v] + d[v], bounds_.bound[v]);
+    return true;
   }
 
   // Below this a residual cannot be told from rounding. It is of interest, and
@@ -121,21 +231,105 @@ private:
 
   // A step that points downhill: by preconditioned conjugate gradients with the kept factor, or with
   // a new one if the kept one has become a bad approximation.
-  bool newton_direction(Vertex_vector& d)
+  bool newton_direction(const Vertex_vector& u, Vertex_vector& d)
+  {
+    const double eta = forcing_term();
+    if(!bounds_.empty())
+      return (bounded_step(u, eta, d) && dot(residual_, d) > 0) || (bounded_step(u, 1e-6 * eta, d) && dot(residual_, d) > 0);
+    return solve_linear(residual_, eta, d)
+        && (dot(residual_, d) > 0 || (solver_.precondition(residual_, d) && dot(residual_, d) > 0));
+  }
+
+  // A d = b. Returns whether there was a factor for it.
+  bool solve_linear(const Vertex_vector& b, double eta, Vertex_vector& d)
   {
     const std::size_t few = 15, many = 200;
-    const double eta = forcing_term();
     bool converged = false;
-    std::size_t count = solver_.conjugate_gradients(energy_.weights(), residual_, eta, few, d, converged);
+    std::size_t count = solver_.conjugate_gradients(energy_.weights(), b, eta, few, d, converged);
     statistics_.number_of_linear_iterations += count;
-    if(!converged)
+    if(converged)
+      return true;
+    if(!solver_.factorize(energy_.weights()))
+      return false;
+    count = solver_.conjugate_gradients(energy_.weights(), b, eta, many, d, converged);
+    statistics_.number_of_linear_iterations += count;
+    return true;
+  }
+
+  // The minimizer of d.A d / 2 - r.d among the d >= b - u: with f = A d - r, the solution of f = 0 where d > b - u, and f >= 0
+  // where d = b - u. Beginning with the vertices held, those that violate one or the other change sides.
+  bool bounded_step(const Vertex_vector& u, double eta, Vertex_vector& d)
+  {
+    const int most = 200;
+    std::size_t least = (std::numeric_limits<std::size_t>::max)();
+    int patience = 10;
+    for(int round = 0; round < most; ++round)
     {
-      if(!solver_.factorize(energy_.weights()))
+      Vertex_vector f;
+      double error = 0;
+      if(!solve_held(u, eta, d, f, error))
         return false;
-      count = solver_.conjugate_gradients(energy_.weights(), residual_, eta, many, d, converged);
-      statistics_.number_of_linear_iterations += count;
+      const std::vector<std::uint32_t> wrong = on_wrong_side(u, d, f, error);
+      if(wrong.empty())
+        break;
+      patience = wrong.size() < least ? 10 : patience - 1;
+      least = (std::min)(least, wrong.size());
+      for(std::size_t i = patience >= 0 ? 0 : wrong.size() - 1; i < wrong.size(); ++i)
+        active_[wrong[i]] = !active_[wrong[i]];
     }
-    return dot(residual_, d) > 0 || (solver_.precondition(residual_, d) && dot(residual_, d) > 0);
+    for(std::size_t v = 0; v < u.size(); ++v)
+      d[v] = (std::max)(d[v], bounds_.bound[v] - u[v]);
+    solver_.hold(active_);
+    return true;
+  }
+
+  // d = b - u where held, f = 0 elsewhere up to `error`.
+  bool solve_held(const Vertex_vector& u, double eta, Vertex_vector& d, Vertex_vector& f, double& error)
+  {
+    Vertex_vector held_step(u.size(), 0.);
+    for(std::size_t v = 0; v < u.size(); ++v)
+      if(active_[v])
+        held_step[v] = bounds_.bound[v] - u[v];
+    solver_.hold(active_);
+    Vertex_vector b = solver_.graph().product(energy_.weights(), held_step);
+    for(std::size_t v = 0; v < u.size(); ++v)
+      b[v] = residual_[v] - b[v];
+    solver_.graph().clear_fixed(b);
+    if(!solve_linear(b, eta, d))
+      return false;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      d[v] += held_step[v];
+    solver_.hold_none();
+    f = solver_.graph().product(energy_.weights(), d);
+    for(std::size_t v = 0; v < u.size(); ++v)
+      f[v] -= residual_[v];
+    error = 2 * eta * largest_entry(b) + 0.1 * options_.tolerance;
+    return true;
+  }
+
+  // In a component that rests on its bounds, the f of the vertices held have a positive sum: the largest one is right.
+  std::vector<std::uint32_t> on_wrong_side(const Vertex_vector& u, const Vertex_vector& d, const Vertex_vector& f, double error) const
+  {
+    std::vector<char> is_right(u.size(), 0);
+    const double infinity = std::numeric_limits<double>::infinity();
+    for(const std::uint32_t v : bounds_.largest([&](std::uint32_t w) { return active_[w] ? f[w] : -infinity; }))
+      is_right[v] = active_[v];
+    std::vector<std::uint32_t> result;
+    for(std::uint32_t v = 0; v < u.size(); ++v)
+      if(bounds_.has(v) && !is_right[v] && (active_[v] ? f[v] < -error : d[v] < bounds_.bound[v] - u[v]))
+        result.push_back(v);
+    return result;
+  }
+
+  // u + t d, not below the bounds.
+  void step(const Vertex_vector& u, double t, const Vertex_vector& d, Vertex_vector& trial) const
+  {
+    for(std::size_t v = 0; v < u.size(); ++v)
+      trial[v] = u[v] + t * d[v];
+    if(bounds_.empty())
+      return;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      trial[v] = active_[v] && t == 1 ? bounds_.bound[v] : (std::max)(trial[v], bounds_.bound[v]);
   }
 
   // Goes along d as far as the derivative of E has not become more than half as
@@ -149,14 +343,13 @@ private:
       return trust_region_step(u);
     Vertex_vector d;
     const double far = 10; // in u
-    if(!newton_direction(d) || (!energy_.broken_faces().empty() && !(largest_entry(d) <= far)))
+    if(!newton_direction(u, d) || (!energy_.broken_faces().empty() && !(largest_entry(d) <= far)))
       return begin_trust_region(u);
     const double slope = dot(residual_, d);
     Vertex_vector trial(u.size()), r;
     for(double t = 1; t > 1e-6; )
     {
-      for(std::size_t v = 0; v < u.size(); ++v)
-        trial[v] = u[v] + t * d[v];
+      step(u, t, d, trial);
       const bool is_finite = evaluate(trial, r);
       const double slope_there = is_finite ? dot(r, d) : -std::numeric_limits<double>::infinity();
       if(slope_there >= -0.5 * slope)
@@ -173,11 +366,11 @@ private:
   }
 
   // The factor for the trust region is that of the first metric again: a Hessian at broken triangles makes a
-  // bad norm. Where no triangle is broken, it is rounding that keeps the line search from going on.
+  // bad norm. Where no triangle is broken and little is left to do, it is rounding that keeps the line search from going on.
   bool begin_trust_region(Vertex_vector& u)
   {
     evaluate(u, residual_);
-    if(energy_.broken_faces().empty())
+    if(energy_.broken_faces().empty() && largest_entry(residual_) < 1e-6)
       return false;
     is_lost_ = true;
     radius_ = 0;
@@ -193,18 +386,20 @@ private:
   bool trust_region_step(Vertex_vector& u)
   {
     Vertex_vector trial(u.size()), r;
-    for(int attempt = 0; attempt < 60; ++attempt)
+    double near_bound = (std::min)(1e-3, bounds_.empty() ? 0 : violation(u));
+    for(int attempt = 0; attempt < 60; ++attempt, near_bound /= 4)
     {
       Vertex_vector d, ad;
+      hold_active(u, near_bound);
       if(!steihaug_direction(d))
         return false;
+      project(u, d);
       ad = solver_.graph().product(energy_.weights(), d);
       const double predicted = dot(residual_, d) - dot(d, ad) / 2;
-      for(std::size_t v = 0; v < u.size(); ++v)
-        trial[v] = u[v] + d[v];
+      step(u, 1, d, trial);
       const bool is_finite = evaluate(trial, r);
-      const double actual = is_finite ? (dot(residual_, d) + dot(r, d)) / 2 : -1;
-      const double ratio = actual / predicted;
+      const double actual = is_finite && predicted > 0 ? (dot(residual_, d) + dot(r, d)) / 2 : -1;
+      const double ratio = predicted > 0 ? actual / predicted : -1;
       if(ratio > 0.75 && at_boundary_)
         radius_ *= 2;
       else if(!(ratio > 0.25))
@@ -222,6 +417,16 @@ private:
     return false;
   }
 
+  // Ends the step d at the bounds, and moves the vertices held to theirs (D. P. Bertsekas, 1982).
+  void project(const Vertex_vector& u, Vertex_vector& d)
+  {
+    if(bounds_.empty())
+      return;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      d[v] = active_[v] ? bounds_.bound[v] - u[v] : (std::max)(d[v], bounds_.bound[v] - u[v]);
+    solver_.hold_none();
+  }
+
   bool steihaug_direction(Vertex_vector& d)
   {
     const std::size_t n = residual_.size(), most = 300, few = 15;
@@ -229,6 +434,13 @@ private:
     for(bool refactored = false; ; refactored = true)
     {
       Vertex_vector r = residual_, z, p;
+      if(!bounds_.empty())
+        solver_.graph().clear_fixed(r);
+      if(!bounds_.empty() && largest_entry(r) == 0)
+      {
+        d.assign(n, 0.);
+        return true;
+      }
       d.assign(n, 0.);
       at_boundary_ = false;
       if(!solver_.precondition(r, z))
@@ -284,10 +496,12 @@ private:
   Energy& energy_;
   Laplacian_solver<SolverTraits>& solver_;
   const Vertex_vector& target_;
+  const Lower_bounds bounds_;
   const Newton_options options_;
   Statistics& statistics_;
   Visitor& visitor_;
   Vertex_vector residual_;
+  std::vector<char> active_; // the vertices whose bounds are thought to be active
   double floor_ = 0;
   double radius_ = 0, step_norm_ = 0; // of the trust region
   bool at_boundary_ = false;

@@ -64,6 +64,8 @@ std::vector<double> wide_residual(const Intrinsic_triangulation<NT>& t, const st
   std::vector<Complex> z(n);
   for(std::uint32_t v = 0; v < n; ++v)
   {
+    if(t.is_isolated_vertex(v)) // whatever its condition is
+      continue;
     const Exact_angle<NT>& target = conditions.angle_sum(v);
     if(target.is_exact() && target.units == 2 * Exact_angle<NT>::units_of_pi)
       z[v] = {Wide(-1), Wide(0)};

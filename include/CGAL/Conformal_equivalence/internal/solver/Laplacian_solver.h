@@ -8,7 +8,9 @@
 // twice the Hessian of E. The matrix A is restricted to the free vertices. It is
 // applied edge by edge and never assembled, except to be factorized; the factor of
 // one A serves as preconditioner for the conjugate gradient method with later ones.
-// Vectors run over all vertices and are zero at those that are not free.
+// Vectors run over all vertices and are zero at those that are not free. Some of the
+// free vertices can be held for a while: the matrix is then restricted to the others,
+// but its factor keeps its pattern, and a factor made before still serves.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
@@ -46,22 +48,30 @@ inline double largest_entry(const Vertex_vector& x)
   return result;
 }
 
-// The edges of the graph, with the vertices that are free.
+// The edges of the graph, with the vertices that are free, and those of them that are held.
 struct Edge_graph
 {
   typedef std::uint32_t Index;
   std::vector<std::pair<Index, Index> > ends; // by edge
   std::vector<Index> free_index;              // by vertex; null_index where fixed
   Index number_of_free = 0;
+  std::vector<char> held;                     // by vertex, or empty: none
 
   bool is_free(Index v) const { return free_index[v] != Intrinsic_triangulation<>::null_index; }
+  bool is_held(Index v) const { return !held.empty() && held[v] != 0; }
 
   template <typename NT>
   void set_edges(const Intrinsic_triangulation<NT>& t)
   {
     ends.resize(t.number_of_edges());
     for(Index e = 0; e < t.number_of_edges(); ++e)
-      ends[e] = std::make_pair(t.origin(t.edge_halfedge(e)), t.target(t.edge_halfedge(e)));
+      set_edge(t, e);
+  }
+
+  template <typename NT>
+  void set_edge(const Intrinsic_triangulation<NT>& t, Index e)
+  {
+    ends[e] = std::make_pair(t.origin(t.edge_halfedge(e)), t.target(t.edge_halfedge(e)));
   }
 
   void set_free(const std::vector<char>& free)
@@ -81,7 +91,7 @@ struct Edge_graph
     return result;
   }
 
-  // A x for the edge weights w, on the free vertices; `x` may be nonzero at fixed ones.
+  // A x for the edge weights w, on the free vertices that are not held; `x` may be nonzero at the others.
   Vertex_vector product(const std::vector<double>& w, const Vertex_vector& x) const
   {
     Vertex_vector y(x.size(), 0.);
@@ -112,13 +122,13 @@ struct Edge_graph
   void clear_fixed(Vertex_vector& y) const
   {
     for(std::size_t v = 0; v < y.size(); ++v)
-      if(!is_free(Index(v)))
+      if(!is_free(Index(v)) || is_held(Index(v)))
         y[v] = 0;
   }
 };
 
 // What is added to the diagonal of A where triangles are broken: rows that have
-// lost (nearly) all of their weight get the mean weight.
+// lost (nearly) all of their weight get the mean weight. So do those of held vertices, which have none.
 inline Vertex_vector regularization(const Edge_graph& graph, const std::vector<double>& w, std::size_t& rows)
 {
   Vertex_vector d = graph.diagonal(w), result(d.size(), 0.);
@@ -135,7 +145,8 @@ inline Vertex_vector regularization(const Edge_graph& graph, const std::vector<d
     if(!graph.is_free(v) || d[v] > 1e-14 * largest)
       continue;
     result[v] = mean;
-    ++rows;
+    if(!graph.is_held(v))
+      ++rows;
   }
   return result;
 }
@@ -182,7 +193,7 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
     if(entry(e, row, column))
     {
       rows[free_place[column]] = row;
-      values[free_place[column]++] = -w[e] / 2;
+      values[free_place[column]++] = graph.is_held(graph.ends[e].first) || graph.is_held(graph.ends[e].second) ? 0 : -w[e] / 2;
     }
 
   // sort every column and join multiple edges
@@ -229,6 +240,8 @@ class Factorization
 
 public:
   explicit Factorization(const SolverTraits& traits) : traits_(traits) {}
+
+  const SolverTraits& traits() const { return traits_; }
 
   void forget_pattern() { is_analyzed_ = false; }
 
@@ -289,6 +302,7 @@ class Laplacian_solver
 public:
   explicit Laplacian_solver(const SolverTraits& traits) : factor_(traits) {}
 
+  const SolverTraits& traits() const { return factor_.traits(); }
   const Edge_graph& graph() const { return graph_; }
   bool has_factor() const { return has_factor_; }
   std::size_t number_of_factorizations() const { return number_of_factorizations_; }
@@ -302,15 +316,28 @@ public:
     has_factor_ = false;
   }
 
-  // The factor is kept if the free vertices are those of the last call.
+  // The ends of an edge have changed: the kept factor still serves as preconditioner, but the next one has another pattern.
+  template <typename NT>
+  void change_edge(const Intrinsic_triangulation<NT>& t, std::uint32_t e)
+  {
+    graph_.set_edge(t, e);
+    factor_.forget_pattern();
+  }
+
+  // The factor is kept if the free vertices are those of the last call. None is held.
   void set_free(const std::vector<char>& free)
   {
+    hold_none();
     if(has_factor_ && graph_.free_vertices() == free)
       return;
     graph_.set_free(free);
     factor_.forget_pattern();
     has_factor_ = false;
   }
+
+  // Holds some of the free vertices. The kept factor still serves.
+  void hold(std::vector<char> held) { graph_.held = std::move(held); }
+  void hold_none() { graph_.held.clear(); }
 
   // factorizes A(w), regularized until it is positive definite; if that fails because rounding
   // has spoiled w (there are triangles with cotangents of 1e15), the Laplacian of tame weights
@@ -332,14 +359,21 @@ public:
         shift[v] += relative * (std::max)(diagonal[v], 0.);
     }
     ++number_of_factorizations_;
-    return has_factor_ = factor_.factor(graph_, tame(w), Vertex_vector(shift.size(), 0.));
+    const std::vector<double> tame_weights = tame(w);
+    return has_factor_ = factor_.factor(graph_, tame_weights, graph_.held.empty() ? Vertex_vector(shift.size(), 0.)
+                                                                                  : regularization(graph_, tame_weights, rows));
   }
 
   // x = A^-1 b with the matrix last factorized
   bool precondition(const Vertex_vector& b, Vertex_vector& x)
   {
     x.assign(b.size(), 0.);
-    return graph_.number_of_free == 0 || factor_.solve(graph_, b, x);
+    if(graph_.number_of_free == 0)
+      return true;
+    const bool is_solved = factor_.solve(graph_, b, x);
+    if(!graph_.held.empty())
+      graph_.clear_fixed(x);
+    return is_solved;
   }
 
   // Conjugate gradients for A(w) x = b from x = 0, preconditioned by the kept

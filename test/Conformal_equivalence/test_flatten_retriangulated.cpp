@@ -1,0 +1,483 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Metrics that need flips (discrete uniformization), and layouts of the given triangulation in them.
+
+#define BOOST_TEST_MODULE test_flatten_retriangulated
+#include "include/boost_test.h"
+#include "include/flattened_meshes.h"
+
+#include <CGAL/Conformal_equivalence/boundary_conditions.h>
+#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/compute_cut_graph.h>
+#include <CGAL/Conformal_equivalence/compute_layout.h>
+#include <CGAL/Conformal_equivalence/discrete_metric.h>
+#include <CGAL/Conformal_equivalence/flatten.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace CE = CGAL::Conformal_equivalence;
+namespace params = CGAL::parameters;
+using namespace testing;
+using CE::Retriangulation;
+using CE::Status;
+
+namespace {
+
+typedef CE::Flattening_report<Mesh>       Report;
+typedef CE::Intrinsic_triangulation<>     Triangulation;
+typedef CE::Conformal_conditions<double>  Conditions;
+typedef CE::Conformal_metric<double>      Metric;
+typedef CE::Exact_angle<double>           Angle;
+typedef std::complex<double>              Complex;
+
+Complex complex(const std::array<double, 2>& z) { return Complex(z[0], z[1]); }
+
+// The metric is what it should be: triangles, angle sums, Delaunay, on the triangulation that it has.
+Metric solved(const Triangulation& t, const Conditions& conditions, Retriangulation mode)
+{
+  const Metric metric = CE::compute_conformal_metric(t, conditions, params::retriangulation(mode));
+  BOOST_TEST_REQUIRE(bool(metric), CE::message(metric.status) << ", residual " << metric.statistics.residual);
+  BOOST_TEST(metric.statistics.residual <= (std::max)(1e-12, metric.statistics.residual_floor));
+  const Triangulation& r = metric.triangulation;
+  const auto length = [&](Index h) { return metric.scaled_length(h); };
+  std::vector<double> sum(r.number_of_vertices(), 0), cotangents(r.number_of_edges(), 0), size(r.number_of_edges(), 0);
+  double thinnest = 1;
+  for(Index h = 0; h < r.number_of_halfedges(); ++h)
+  {
+    const double a = length(h), b = length(r.next(h)), c = length(r.previous(h)); // c and a meet at the origin
+    const double s = (a + b + c) / 2, area = std::sqrt(s * (s - a) * (s - b) * (s - c));
+    sum[r.origin(h)] += 2 * std::atan2(std::sqrt((s - a) * (s - c)), std::sqrt(s * (s - b)));
+    cotangents[r.edge(h)] += (b * b + c * c - a * a) / (4 * area);
+    size[r.edge(h)] += (b * b + c * c + a * a) / (4 * area);
+    thinnest = (std::min)(thinnest, area / (s * s));
+    BOOST_TEST(area > 0);
+  }
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_isolated_vertex(v) && !conditions.is_fixed(v))
+      BOOST_TEST(std::abs(sum[v] - (metric.is_doubled && t.is_border_vertex(v) ? 2 : 1) * conditions.angle_sum(v).radians())
+                 <= (std::max)(1e-10, 1e-13 / thinnest));
+    else if(!t.is_isolated_vertex(v))
+      BOOST_TEST(metric.log_scale_factors[v] == conditions.log_scale_factor(v));
+  if(metric.is_retriangulated())
+    for(Index e = 0; e < r.number_of_edges(); ++e)
+      if(r.is_flippable(e))
+        BOOST_TEST(cotangents[e] >= -1e-8 - 1e-13 * size[e] * size[e]);
+  return metric;
+}
+
+double diameter(const std::vector<std::array<double, 2> >& corners)
+{
+  double x[2] = { HUGE_VAL, -HUGE_VAL }, y[2] = { HUGE_VAL, -HUGE_VAL };
+  for(const auto& p : corners)
+  {
+    x[0] = (std::min)(x[0], p[0]);
+    x[1] = (std::max)(x[1], p[0]);
+    y[0] = (std::min)(y[0], p[1]);
+    y[1] = (std::max)(y[1], p[1]);
+  }
+  return std::hypot(x[1] - x[0], y[1] - y[0]);
+}
+
+// The layout of the given triangulation: it closes around every vertex, and the two sides of each cut are congruent.
+CE::Layout<double> checked_layout(const Triangulation& t, const Metric& metric, const std::vector<Index>& cones)
+{
+  const CE::Cut_graph cut = CE::compute_cut_graph(t, cones);
+  BOOST_TEST_REQUIRE(bool(cut));
+  const CE::Layout<double> layout = CE::compute_layout(t, metric, cut);
+  const double unit = std::ldexp(diameter(layout.corner), -53);
+  BOOST_TEST(layout.corner.size() == t.number_of_halfedges());
+  for(Index h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    const Complex p = complex(layout.corner[t.previous(h)]), q = complex(layout.corner[h]);
+    const double length = metric.is_retriangulated() ? layout.straight_lengths[t.edge(h)] : metric.scaled_length(h);
+    BOOST_TEST(std::abs(std::abs(q - p) - length) <= 16 * unit + 1e-12 * length);
+  }
+  for(const auto& motion : layout.transitions)
+  {
+    const Index h = motion.halfedge, g = t.twin(h);
+    const Complex r = complex(motion.rotation), s = complex(motion.translation);
+    BOOST_TEST(std::abs(r * complex(layout.corner[h]) + s - complex(layout.corner[t.previous(g)])) <= 16 * unit);
+    BOOST_TEST(std::abs(r * complex(layout.corner[t.previous(h)]) + s - complex(layout.corner[g])) <= 16 * unit);
+  }
+  // angles around interior vertices, up to whole turns
+  const std::vector<double> sums = CE::angle_sums(CE::apply_log_scale_factors(t, std::vector<double>(t.number_of_vertices(), 0)));
+  std::vector<double> turned(t.number_of_vertices(), 0), shortest(t.number_of_vertices(), HUGE_VAL);
+  for(Index h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    const Complex o = complex(layout.corner[t.previous(h)]), p = complex(layout.corner[h]), q = complex(layout.corner[t.next(h)]);
+    turned[t.origin(h)] += std::arg((q - o) / (p - o));
+    shortest[t.origin(h)] = (std::min)({shortest[t.origin(h)], std::abs(p - o), std::abs(q - o)});
+  }
+  std::vector<char> is_cone(t.number_of_vertices(), 0);
+  for(Index v : cones)
+    is_cone[v] = 1;
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v) && !is_cone[v])
+      BOOST_TEST(std::abs(std::remainder(turned[v], 2 * pi)) <= 1e-10 + 64 * unit / shortest[v]);
+  return layout;
+}
+
+// Angles that are drawn at random, positive, with the sum that they must have.
+Conditions random_angles(const Triangulation& t, double spread, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0, spread);
+  Conditions conditions(t);
+  const double total = 2 * pi * (double(t.number_of_vertices()) - double(CE::connected_components(t).components[0].euler_characteristic()));
+  std::vector<double> angle(t.number_of_vertices());
+  double sum = 0;
+  for(double& a : angle)
+    sum += a = std::exp(normal(random));
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    conditions.prescribe_angle_sum(v, angle[v] / sum * total);
+  return conditions;
+}
+
+std::vector<Index> all_vertices(const Triangulation& t)
+{
+  std::vector<Index> result(t.number_of_vertices());
+  for(Index v = 0; v < result.size(); ++v)
+    result[v] = v;
+  return result;
+}
+
+} // namespace
+
+// --- the energy ---------------------------------------------------------------------------------
+
+namespace {
+
+struct Silent_observer
+{
+  std::size_t flips = 0;
+  void before_flip(const Triangulation&, Index) { ++flips; }
+  void after_flip(const Triangulation&, Index) {}
+  void begin_anew(const Triangulation&) {}
+};
+
+} // namespace
+
+// Continued by flips, the energy is twice continuously differentiable: the derivative of the angle sums along a line, which crosses
+// many cells, is that by the weights of the triangulation at each point, and their integral is the difference of the ends.
+BOOST_AUTO_TEST_CASE(energy_across_flips)
+{
+  for(const Soup& soup : { icosphere(1), torus(7, 5) })
+  {
+    Triangulation t = triangulation(soup);
+    Silent_observer observer;
+    CE::internal::Ideal_delaunay_energy<double, Silent_observer> energy(t, observer);
+    const Index n = t.number_of_vertices();
+    const std::vector<double> direction = random_numbers(n, 3, 17);
+    const auto at = [&](double x)
+    {
+      std::vector<double> u(n);
+      for(Index v = 0; v < n; ++v)
+        u[v] = x * direction[v];
+      BOOST_TEST_REQUIRE(energy.evaluate(u));
+      BOOST_TEST(energy.broken_faces().empty());
+      return energy.angle_sums();
+    };
+    const auto derivative = [&](double x) // of the angle sums, along the line
+    {
+      at(x);
+      std::vector<double> result(n, 0);
+      for(Index e = 0; e < t.number_of_edges(); ++e)
+      {
+        const Index i = t.origin(t.edge_halfedge(e)), j = t.target(t.edge_halfedge(e));
+        const double flux = energy.weights()[e] * (direction[i] - direction[j]) / 2;
+        result[i] -= flux;
+        result[j] += flux;
+      }
+      return result;
+    };
+    const std::vector<double> first = at(0), last = at(1);
+    BOOST_TEST(observer.flips > 30u);
+    std::vector<double> integral(n, 0);
+    const int steps = 4000; // Simpson's rule; the third derivatives jump where edges are flipped
+    for(int k = 0; k <= steps; ++k)
+    {
+      const std::vector<double> d = derivative(double(k) / steps);
+      for(Index v = 0; v < n; ++v)
+        integral[v] += d[v] * (k == 0 || k == steps ? 1 : k % 2 == 1 ? 4 : 2) / (3. * steps);
+    }
+    for(Index v = 0; v < n; ++v)
+      BOOST_TEST(std::abs(last[v] - first[v] - integral[v]) <= 1e-5);
+
+    const double h = 1e-5;
+    for(double x : { .1, .35, .7 })
+    {
+      const std::vector<double> d = derivative(x), right = at(x + h), left = at(x - h);
+      for(Index v = 0; v < n; ++v)
+        BOOST_TEST(std::abs((right[v] - left[v]) / (2 * h) - d[v]) <= 1e-5 * (1 + std::abs(d[v])));
+      // and back: the triangulation at a point does not depend on the way
+      const std::vector<double> again = at(x);
+      at(0);
+      const std::vector<double> once_more = at(x);
+      for(Index v = 0; v < n; ++v)
+        BOOST_TEST(std::abs(again[v] - once_more[v]) <= 1e-11);
+    }
+  }
+}
+
+// --- closed surfaces ----------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(random_curvatures)
+{
+  Soup noisy = icosphere(2);
+  add_noise(noisy, .05, 3);
+  const std::vector<Triangulation> surfaces = { triangulation(icosahedron()), triangulation(noisy), triangulation(torus(9, 6)) };
+  std::size_t flipped = 0;
+  for(const Triangulation& t : surfaces)
+    for(unsigned seed = 0; seed < 4; ++seed)
+      for(double spread : { .2, 1., 2. })
+        for(Retriangulation mode : { Retriangulation::WHEN_NEEDED, Retriangulation::ALWAYS })
+        {
+          const Metric metric = solved(t, random_angles(t, spread, seed), mode);
+          flipped += metric.is_retriangulated();
+          checked_layout(t, metric, all_vertices(t));
+        }
+  BOOST_TEST(flipped > 40u);
+}
+
+// All curvature at few vertices, and angles far beyond what the triangles at a vertex could have.
+BOOST_AUTO_TEST_CASE(extreme_cones)
+{
+  const Triangulation sphere = triangulation(icosphere(2)), ring = triangulation(torus(10, 7));
+  for(double most : { .5, .9, .99, 1.5, 1.999 }) // of 2 pi, at two of three cones
+  {
+    Conditions conditions(sphere);
+    conditions.prescribe_angle_sum(0, 2 * pi * (1 - most / 2));
+    conditions.prescribe_angle_sum(5, 2 * pi * (1 - most / 2));
+    conditions.prescribe_angle_sum(100, 2 * pi * (1 - (2 - most)) + 0.);
+    if(2 - most >= 1)
+      continue;
+    const Metric metric = solved(sphere, conditions, Retriangulation::WHEN_NEEDED);
+    checked_layout(sphere, metric, {0, 5, 100});
+  }
+  for(int extra : { 1, 4, 9 }) // a cone of 2 pi (1 + extra), on a vertex with six triangles
+  {
+    Conditions conditions(ring);
+    conditions.prescribe_angle_sum(3, Angle::pi_times(2 + 2 * extra));
+    std::vector<Index> cones(1, 3);
+    for(Index v = 7; cones.size() < std::size_t(2 * extra) + 1; v += 3)
+    {
+      conditions.prescribe_angle_sum(v, Angle::pi_times(1));
+      cones.push_back(v);
+    }
+    BOOST_TEST((CE::compute_conformal_metric(ring, conditions).status != Status::OK));
+    const Metric metric = solved(ring, conditions, Retriangulation::WHEN_NEEDED);
+    BOOST_TEST(metric.is_retriangulated());
+    checked_layout(ring, metric, cones);
+  }
+}
+
+// Ptolemy flips do not leave the conformal class: of the torus with one vertex, whatever its lengths look like.
+BOOST_AUTO_TEST_CASE(torus_with_one_vertex_after_flips)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(.8, 1.2);
+  for(int i = 0; i < 20; ++i)
+  {
+    Triangulation t = one_vertex_torus(uniform(random), uniform(random), uniform(random));
+    const Metric straight = solved(t, Conditions(t), Retriangulation::NEVER);
+    const CE::Layout<double> expected = CE::compute_layout(t, straight, CE::compute_cut_graph(t, {}));
+    for(int flips = 0; flips < 6; ++flips)
+    {
+      const Index e = Index(random() % 3), h = t.edge_halfedge(e), g = t.twin(h);
+      const double l = (t.halfedge_length(t.next(h)) * t.halfedge_length(t.next(g))
+                      + t.halfedge_length(t.previous(h)) * t.halfedge_length(t.previous(g))) / t.length(e);
+      t.flip_edge(e, l);
+    }
+    const Metric metric = solved(t, Conditions(t), Retriangulation::WHEN_NEEDED);
+    const CE::Layout<double> layout = checked_layout(t, metric, {});
+    BOOST_TEST_REQUIRE(layout.lattices.size() == 1u);
+    BOOST_TEST(std::abs(complex(layout.lattices[0].tau) - complex(expected.lattices[0].tau)) <= 1e-11);
+  }
+}
+
+// ALWAYS depends on the surface alone: not on the diagonals of its flat parts.
+BOOST_AUTO_TEST_CASE(diagonals_of_planar_quads)
+{
+  const auto box = [](unsigned seed)
+  {
+    std::mt19937 random(seed);
+    Soup soup;
+    const Index n = 4;
+    std::map<std::array<Index, 3>, Index> number;
+    const auto vertex = [&](std::array<Index, 3> p)
+    {
+      const auto found = number.emplace(p, Index(soup.points.size()));
+      if(found.second)
+        soup.points.push_back({{double(p[0]), 1.5 * p[1], .7 * p[2]}});
+      return found.first->second;
+    };
+    for(int axis = 0; axis < 3; ++axis)
+      for(Index side : { Index(0), n })
+        for(Index i = 0; i < n; ++i)
+          for(Index j = 0; j < n; ++j)
+          {
+            const auto at = [&](Index x, Index y)
+            {
+              std::array<Index, 3> p;
+              p[axis] = side;
+              p[(axis + 1) % 3] = x;
+              p[(axis + 2) % 3] = y;
+              return vertex(p);
+            };
+            Index a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+            if(side == 0)
+              std::swap(b, d);
+            if(seed != 0 && random() % 2 == 0)
+              soup.triangles.insert(soup.triangles.end(), {{{a, b, c}}, {{a, c, d}}});
+            else
+              soup.triangles.insert(soup.triangles.end(), {{{a, b, d}}, {{b, c, d}}});
+          }
+    return triangulation(soup);
+  };
+  std::vector<double> expected;
+  for(unsigned seed = 0; seed < 4; ++seed)
+  {
+    const Triangulation t = box(seed);
+    Conditions conditions(t);
+    for(Index v : { 0, 7, 31, 60 })
+      conditions.prescribe_angle_sum(v, Angle::pi_times(1));
+    const Metric metric = solved(t, conditions, Retriangulation::ALWAYS);
+    checked_layout(t, metric, { 0, 7, 31, 60 });
+    if(seed == 0)
+      expected = metric.log_scale_factors;
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      BOOST_TEST(std::abs(metric.log_scale_factors[v] - expected[v]) <= 1e-10);
+  }
+}
+
+// --- borders ------------------------------------------------------------------------------------
+
+// On the double of a surface the solution is that of the surface, twice.
+BOOST_AUTO_TEST_CASE(double_of_a_surface)
+{
+  for(const Soup& soup : { hill(6, .4), annulus(3, 12, .3) })
+  {
+    const Triangulation t = triangulation(soup);
+    const CE::internal::Surface_double<double> twofold(t);
+    const Triangulation& d = twofold.triangulation;
+    BOOST_TEST(CE::non_manifold_vertices(d).empty());
+    const CE::Surface_components pieces = CE::connected_components(d);
+    BOOST_TEST(pieces.components.size() == 1u);
+    BOOST_TEST(pieces.components[0].number_of_borders == 0u);
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      BOOST_TEST(d.length(e) == t.length(e));
+    for(Index h = 0; h < d.number_of_halfedges(); ++h)
+    {
+      BOOST_TEST(d.origin(d.twin(h)) == d.target(h));
+      BOOST_TEST(d.halfedge_length(d.twin(h)) == d.halfedge_length(h));
+    }
+    const Conditions conditions(t);
+    const Metric one = solved(t, conditions, Retriangulation::NEVER), two = solved(d, twofold.conditions(conditions), Retriangulation::NEVER);
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      BOOST_TEST(std::abs(one.log_scale_factors[v] - two.log_scale_factors[v]) <= 1e-12);
+  }
+}
+
+// Obtuse triangles along the border, which flips inside cannot help.
+BOOST_AUTO_TEST_CASE(borders_that_need_the_double)
+{
+  Soup soup = cone(5, .1); // a very sharp tip over one side of the border
+  soup.points[0] = {{.9, 0, .05}};
+  const Triangulation t = triangulation(soup);
+  std::size_t doubled = 0;
+  for(double slope : { .3, 1., 3., 9. })
+  {
+    Soup steep = soup;
+    steep.points[0][2] = slope;
+    const Triangulation s = triangulation(steep);
+    for(bool is_straight : { false, true })
+    {
+      Conditions conditions(s);
+      if(is_straight)
+        for(Index v = 1; v <= 5; ++v)
+          conditions.prescribe_angle_sum(v, v == 1 ? Angle::pi_times(1, 30) : v == 2 ? Angle::pi_times(29, 30) : Angle::pi_times(2, 3));
+      const Metric metric = solved(s, conditions, Retriangulation::WHEN_NEEDED);
+      doubled += metric.is_doubled;
+      const CE::Layout<double> layout = checked_layout(s, metric, {});
+      // the border is a polygon of straight sides; its turning is that of the angles
+      std::vector<Complex> side;
+      for(Index h = 0; h < s.number_of_halfedges(); ++h)
+        if(s.is_border(h))
+          side.push_back(complex(layout.corner[h]) - complex(layout.corner[s.previous(h)]));
+      Complex sum = 0;
+      for(const Complex& z : side)
+        sum += z;
+      BOOST_TEST(std::abs(sum) <= 1e-12 * std::abs(side[0]));
+    }
+  }
+  BOOST_TEST(doubled > 0u);
+}
+
+// --- meshes -------------------------------------------------------------------------------------
+
+namespace {
+
+struct Flattened
+{
+  Mesh sm;
+  Mesh::Property_map<Halfedge, Point_2> uv;
+  Mesh::Property_map<Vertex, double> u;
+  Mesh::Property_map<Edge, double> scaled;
+  Report report;
+
+  Flattened(const Mesh& mesh, Retriangulation mode) : sm(mesh)
+  {
+    uv = sm.add_property_map<Halfedge, Point_2>("h:uv").first;
+    u = sm.add_property_map<Vertex, double>("v:u", 0).first;
+    scaled = sm.add_property_map<Edge, double>("e:scaled", 0).first;
+    report = CE::flatten(sm, uv, params::retriangulation(mode).log_scale_factor_map(u).scaled_edge_length_map(scaled));
+  }
+  Flattened(const Flattened&) = delete;
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(without_need_nothing_changes, * needs_mesh("lion-head.off"))
+{
+  for(const char* name : { "lion-head.off", "knot1.off", "head.off" })
+  {
+    const Flattened never(read_mesh(name), Retriangulation::NEVER), when_needed(read_mesh(name), Retriangulation::WHEN_NEEDED);
+    BOOST_TEST(bool(never.report));
+    BOOST_TEST(when_needed.report.statistics.number_of_flips == 0u);
+    BOOST_TEST(std::equal(never.uv.begin(), never.uv.end(), when_needed.uv.begin()));
+    BOOST_TEST(std::equal(never.u.begin(), never.u.end(), when_needed.u.begin()));
+  }
+}
+
+// The disks that the fixed triangulation cannot do.
+BOOST_AUTO_TEST_CASE(disks_that_need_flips, * needs_mesh("cylinder_locally_refined.off"))
+{
+  for(const char* name : { "cylinder_locally_refined.off", "mannequin-devil.off", "blob.off", "corner_tris_with_hole.off", "degtri_sliding.off" })
+    BOOST_TEST_CONTEXT(name)
+    {
+      const Flattened never(read_mesh(name), Retriangulation::NEVER);
+      BOOST_TEST(!never.report);
+      const Flattened m(read_mesh(name), Retriangulation::WHEN_NEEDED);
+      BOOST_TEST_REQUIRE(bool(m.report), CE::message(m.report));
+      BOOST_TEST(m.report.statistics.number_of_flips > 0u);
+      BOOST_TEST(m.report.statistics.residual <= 1e-12);
+      for(Face f : faces(m.sm))
+      {
+        const Halfedge h = halfedge(f, m.sm);
+        BOOST_TEST((CGAL::orientation(m.uv[h], m.uv[next(h, m.sm)], m.uv[prev(h, m.sm)]) == CGAL::LEFT_TURN));
+      }
+      const double tolerance = (std::max)(1e-12, 16 * rounding_of_lengths(m.sm, m.uv));
+      for(Halfedge h : halfedges(m.sm))
+        if(!is_border(h, m.sm))
+          BOOST_TEST(std::abs(uv_length(m.sm, m.uv, h) / m.scaled[edge(h, m.sm)] - 1) <= tolerance);
+      for(Vertex v : vertices(m.sm)) // with positive triangles around them, all vertices inside are flat
+        if(!m.sm.is_isolated(v) && !CGAL::is_border(v, m.sm))
+          BOOST_TEST(std::abs(uv_angle_sum(m.sm, m.uv, v) - 2 * pi) <= 1e-9);
+    }
+}
