@@ -896,10 +896,48 @@ BOOST_AUTO_TEST_CASE(wrong_usage)
   check_refused({"a.off", "--cones", "e", "--cones", "f"}, 2, "--cones");
 }
 
+// The tip over one corner of the border of a pentagon: obtuse triangles there, that only flips across the border can help.
+BOOST_AUTO_TEST_CASE(retriangulation)
+{
+  const Folder folder;
+  Soup soup;
+  soup.points.push_back({{.9, 0, .3}});
+  for(int i = 0; i < 5; ++i)
+    soup.points.push_back({{std::cos(2 * CGAL_PI * i / 5), std::sin(2 * CGAL_PI * i / 5), 0}});
+  for(std::uint32_t i = 0; i < 5; ++i)
+    soup.triangles.push_back({{0, 1 + i, 1 + (i + 1) % 5}});
+  const std::string input = folder.write("tip.off", as_off(soup)), obj = folder / "o.obj", report_file = folder / "o.json";
+  folder.write("angles.txt", "1 6\n2 174\n3 120\n4 120\n5 120\n");
+  const std::string border = "angles=" + (folder / "angles.txt");
+
+  check_refused({input, "-o", obj, "--boundary", border}, 1, "--retriangulate when-needed flips edges");
+  check_refused({input, "-o", obj, "--boundary", border, "--retriangulate", "sometimes"}, 2, "unknown value 'sometimes' of --retriangulate");
+  check_refused({input, "-o", obj, "--boundary", border, "--retriangulate", "always", "--projective"}, 1, "edges were flipped");
+  BOOST_TEST(!fs::exists(obj));
+  for(const char* mode : { "when-needed", "always" })
+  {
+    const Run r = run({input, "-o", obj, "--boundary", border, "--retriangulate", mode
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+                      , "--report", report_file
+#endif
+                      });
+    BOOST_TEST_REQUIRE(r.status == 0, r.err);
+    BOOST_TEST(contains(r.out, " flips"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    const nlohmann::json report = json(report_file);
+    BOOST_TEST(report["retriangulation"]["mode"] == mode);
+    BOOST_TEST(report["retriangulation"]["class"] != "fixed triangulation");
+    BOOST_TEST(report["retriangulation"]["flips"].get<int>() > 0);
+    BOOST_TEST(report["residual"].get<double>() <= 1e-12);
+    BOOST_TEST(report["flipped_triangles"] == 0);
+#endif
+  }
+}
+
 BOOST_AUTO_TEST_CASE(not_in_this_version)
 {
   const std::vector<std::vector<std::string> > options = {
-    {"--retriangulate", "when-needed"}, {"--retriangulate", "always"}, {"--local-repair"}, {"--cones", "auto"}, {"--cones", "auto=3"},
+    {"--local-repair"}, {"--cones", "auto"}, {"--cones", "auto=3"},
     {"--target", "sphere"}, {"--target", "disk"}, {"--boundary", "disk"}, {"--seamless"}, {"--quantize"}, {"--quantize=90"},
     {"--precision", "200"}, {"--tiles", "4"}, {"--max-scale", "3"} };
   for(std::vector<std::string> option : options)

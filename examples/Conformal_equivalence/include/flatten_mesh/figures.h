@@ -131,6 +131,26 @@ inline void add_topology(const Report& report, Lines& lines)
                        text(lattice.tau[0], " + ", lattice.tau[1], " i"));
 }
 
+inline const char* mode_text(const Options& options)
+{
+  switch(options.retriangulation)
+  {
+    case CE::Retriangulation::WHEN_NEEDED: return "when-needed";
+    case CE::Retriangulation::ALWAYS:      return "always";
+    default:                               return "never";
+  }
+}
+
+inline const char* class_text(const CE::Statistics& s)
+{
+  switch(s.conformal_class)
+  {
+    case CE::Conformal_class::GIVEN_TRIANGULATION:    return "given triangulation, flipped";
+    case CE::Conformal_class::DELAUNAY_TRIANGULATION: return "intrinsic Delaunay triangulation, flipped";
+    default:                                          return "fixed triangulation";
+  }
+}
+
 // Names and values, for the terminal and the page.
 inline Lines summary(const Mesh& mesh, const Figures& figures)
 {
@@ -142,6 +162,8 @@ inline Lines summary(const Mesh& mesh, const Figures& figures)
     lines.emplace_back("isolated vertices", text(figures.number_of_isolated_vertices, ", carried through"));
   lines.emplace_back("solver", text(s.number_of_iterations, " Newton steps, residual ", s.residual, " radians",
     figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? " (the limit of rounding)" : ""));
+  if(s.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION)
+    lines.emplace_back("triangulation", text(class_text(s), ": ", s.number_of_flips, " flips", s.is_doubled ? ", on the double" : ""));
   lines.emplace_back("log scale factor u", text("from ", figures.u_min, " to ", figures.u_max));
   lines.emplace_back("quasi-conformal factor", text("mean ", figures.distortion.mean_quasi_conformal_factor,
                                                      ", max ", figures.distortion.maximum_quasi_conformal_factor));
@@ -194,7 +216,7 @@ inline std::string json_report(const Options& options, const Mesh& mesh, const F
   json["genus"] = t.genus;
   json["borders"] = t.number_of_borders;
   json["components"] = t.number_of_components;
-  json["retriangulation"] = { {"mode", "never"}, {"class", "fixed triangulation"}, {"flips", s.number_of_flips} };
+  json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips}, {"doubled", s.is_doubled} };
   json["newton_steps"] = s.number_of_iterations;
   json["pcg_iterations"] = s.number_of_linear_iterations;
   json["factorizations"] = s.number_of_factorizations;

@@ -69,11 +69,11 @@ inline void announce_outputs(const Options& options, const Material_files& besid
 // Says why there is no result.
 [[noreturn]] inline void fail_to_flatten(const Options& options, const Report& report)
 {
-  const bool may_be_the_triangulation =
-    report.status == CE::Status::DEGENERATE_METRIC || report.status == CE::Status::ITERATIONS_EXHAUSTED;
+  const bool may_be_the_triangulation = options.retriangulation == CE::Retriangulation::NEVER
+    && (report.status == CE::Status::DEGENERATE_METRIC || report.status == CE::Status::ITERATIONS_EXHAUSTED);
   const bool lacks_cones = report.status == CE::Status::MISSING_CONDITION && options.cone_file.empty();
   fail(options.input, ": ", CE::message(report),
-       may_be_the_triangulation ? " (the triangulation is kept: --retriangulate never)" : lacks_cones ? " (--cones FILE)" : "");
+       may_be_the_triangulation ? " (the triangulation is kept; --retriangulate when-needed flips edges)" : lacks_cones ? " (--cones FILE)" : "");
 }
 
 inline std::string list_of_faces(const std::vector<Face>& faces)
@@ -198,6 +198,8 @@ inline void run(const Options& options, std::ostream& out, std::ostream& err)
   }
   if(! figures.report)
     fail_to_flatten(options, figures.report);
+  if(options.projective && figures.report.statistics.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION)
+    fail(options.input, ": edges were flipped, and the weights of --projective are those of the triangulation before");
   judge(mesh, result, figures);
   require_verdict(options, figures);
   write_outputs(options, mesh, result, beside, figures, files);

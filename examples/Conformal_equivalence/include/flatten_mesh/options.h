@@ -7,6 +7,7 @@
 #include "messages.h"
 #include "Scanner.h"
 
+#include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/version.h>
 
 #include <boost/program_options.hpp>
@@ -32,6 +33,7 @@ struct Options
   bool unit_square = false;
   bool color_by_quasi_conformal_factor = false;
   bool projective = false, require_injective = false, quiet = false;
+  CGAL::Conformal_equivalence::Retriangulation retriangulation = CGAL::Conformal_equivalence::Retriangulation::NEVER;
   double tolerance = 1e-12;
   unsigned int maximum_number_of_iterations = 100;
   std::string solver;
@@ -66,7 +68,9 @@ inline po::options_description visible_options()
     ("quantize", po::value<std::string>()->implicit_value("90"), "cones at multiples of this angle in degrees (not in this version)")
     ("seamless", po::bool_switch(), "a seamless layout (not in this version)")
     ("tiles", po::value<std::size_t>(), "number of tiles of a seamless layout (not in this version)")
-    ("retriangulate", po::value<std::string>()->default_value("never"), "never (when-needed, always: not in this version)")
+    ("retriangulate", po::value<std::string>()->default_value("never"), "never: edges are kept\n"
+       "when-needed: edges are flipped where there is no solution otherwise\n"
+       "always: the result depends on the surface alone, not on its triangulation")
     ("local-repair", po::bool_switch(), "split triangles that break (not in this version)")
     ("projective", po::bool_switch(), "write homogeneous texture coordinates u*w, v*w, w")
     ("require-injective", po::bool_switch(), "fail if the layout overlaps itself")
@@ -112,7 +116,7 @@ inline void refuse_what_is_not_available(const po::variables_map& values)
   };
   check("target", {"plane"}, {"sphere", "disk"});
   check("frame", {"canonical", "unit-square"}, {});
-  check("retriangulate", {"never"}, {"when-needed", "always"});
+  check("retriangulate", {"never", "when-needed", "always"}, {});
   check("color-by", {"u", "qc"}, {});
 
   std::int64_t bits = 0;
@@ -209,6 +213,12 @@ inline void parse_numbers(const po::variables_map& values, Options& options)
     throw Usage_error("--threads takes a number from 1");
 }
 
+inline CGAL::Conformal_equivalence::Retriangulation parse_retriangulation(const std::string& value)
+{
+  typedef CGAL::Conformal_equivalence::Retriangulation Retriangulation;
+  return value == "always" ? Retriangulation::ALWAYS : value == "when-needed" ? Retriangulation::WHEN_NEEDED : Retriangulation::NEVER;
+}
+
 inline po::variables_map parse_command_line(int argc, const char* const argv[])
 {
   po::options_description all;
@@ -272,6 +282,7 @@ inline Options parse_options(int argc, const char* const argv[])
   parse_numbers(values, options);
   options.unit_square = values["frame"].as<std::string>() == "unit-square";
   options.color_by_quasi_conformal_factor = values["color-by"].as<std::string>() == "qc";
+  options.retriangulation = parse_retriangulation(values["retriangulate"].as<std::string>());
   options.projective = values["projective"].as<bool>();
   options.require_injective = values["require-injective"].as<bool>();
   options.quiet = values["quiet"].as<bool>();

@@ -103,7 +103,7 @@ Report flatten_with(const SolverTraits& solver, const Options& options, const Me
                      .projective_weight_map(result.weight)
                      .gradient_tolerance(options.tolerance)
                      .number_of_iterations(options.maximum_number_of_iterations)
-                     .retriangulation(CE::Retriangulation::NEVER)
+                     .retriangulation(options.retriangulation)
                      .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL)
                      .sparse_linear_solver(solver)
                      .visitor(std::ref(visitor)));
