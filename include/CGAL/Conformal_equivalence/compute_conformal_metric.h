@@ -284,8 +284,9 @@ private:
   // On a copy of the triangulation, which is flipped on the way.
   template <typename Initial, typename Visitor>
   void solve_flipping(Conformal_conditions<NT> conditions, const Initial& initial, Retriangulation retriangulation,
-                      const internal::Newton_options& options, Visitor& visitor, Metric& result)
+                      internal::Newton_options options, Visitor& visitor, Metric& result)
   {
+    options.is_careful = true;
     visitor.on_stage(Stage::SOLVE);
     if(!check(conditions, false, result))
       return;

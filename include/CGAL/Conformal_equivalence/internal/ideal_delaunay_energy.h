@@ -74,7 +74,7 @@ private:
   {
     std::vector<Index> result;
     for(Index e = 0; e < t_.number_of_edges(); ++e)
-      if(this->weights()[e] < -1e-9 && t_.is_flippable(e))
+      if(this->weights()[e] < -1e-12 && t_.is_flippable(e))
         result.push_back(e);
     for(Index f : this->broken_faces())
       for(Index h = 3 * f; h < 3 * f + 3; ++h)

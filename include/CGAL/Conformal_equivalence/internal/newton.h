@@ -40,6 +40,7 @@ struct Newton_options
   double tolerance = 1e-12;
   std::size_t number_of_iterations = 100;
   Newton_strategy strategy = Newton_strategy::LINE_SEARCH;
+  bool is_careful = false; // where edges are flipped on the way: steps are bounded, and residuals do not grow
 };
 
 // The bounds u >= b. In what rests on its bounds, nothing else keeps u from going down to minus infinity,
@@ -113,6 +114,8 @@ public:
       record(iteration, size);
       if(size <= (std::max)(options_.tolerance, rounding_floor()))
         return Status::OK;
+      if(is_careful() && is_stuck_at_floor(iteration, size))
+        return Status::OK;
       if(!visitor_.go_further())
         return Status::STOPPED_BY_VISITOR;
       if(iteration == options_.number_of_iterations)
@@ -130,6 +133,20 @@ public:
   }
 
 private:
+  // (where bounds are active, residuals may grow on the way)
+  bool is_careful() const { return options_.is_careful && bounds_.empty(); }
+
+  // Near the rounding floor, and without gain for a while: what is left to do is up to the wider type.
+  bool is_stuck_at_floor(std::size_t iteration, double size)
+  {
+    if(size <= least_ / 2)
+    {
+      least_ = size;
+      last_gain_ = iteration;
+    }
+    return iteration >= last_gain_ + 5 && size <= 10 * rounding_floor();
+  }
+
   // r at u; false if u is out of the range of double.
   bool evaluate(const Vertex_vector& u, Vertex_vector& r)
   {
@@ -347,19 +364,22 @@ private:
       return begin_trust_region(u);
     const double slope = dot(residual_, d);
     Vertex_vector trial(u.size()), r;
-    for(double t = 1; t > 1e-6; )
+    // far away, triangulations are flipped in vain
+    const double longest = is_careful() ? 5 : std::numeric_limits<double>::infinity(); // in u
+    for(double t = (std::min)(1., longest / largest_entry(d)); t > 1e-6; )
     {
       step(u, t, d, trial);
       const bool is_finite = evaluate(trial, r);
       const double slope_there = is_finite ? dot(r, d) : -std::numeric_limits<double>::infinity();
-      if(slope_there >= -0.5 * slope)
+      const bool is_near = !is_careful() || t < 0.02 || dot(r, r) <= dot(residual_, residual_);
+      if(slope_there >= -0.5 * slope && is_near)
       {
         u.swap(trial);
         residual_.swap(r);
         return true;
       }
       // the zero of the secant through both slopes, safeguarded
-      const double secant = is_finite ? slope / (slope - slope_there) : 0.1;
+      const double secant = is_finite && slope_there < slope ? slope / (slope - slope_there) : 0.1; // else too far
       t *= (std::min)(0.7, (std::max)(0.1, secant));
     }
     return begin_trust_region(u);
@@ -503,6 +523,8 @@ private:
   Vertex_vector residual_;
   std::vector<char> active_; // the vertices whose bounds are thought to be active
   double floor_ = 0;
+  double least_ = std::numeric_limits<double>::infinity(); // residual, in steps of at least one half
+  std::size_t last_gain_ = 0;                              // the iteration when it was found
   double radius_ = 0, step_norm_ = 0; // of the trust region
   bool at_boundary_ = false;
   bool is_lost_ = false; // line search has failed among broken triangles
