@@ -532,6 +532,10 @@ BOOST_AUTO_TEST_CASE(seams_that_miss_something)
     BOOST_TEST((ring.parameterize(Face(0), params::seam_is_border(is_border)) == SMP::ERROR_NO_TOPOLOGICAL_DISC));
     BOOST_TEST((ring.report.status == CE::Status::SEAM_LEAVES_NO_DISK));
     BOOST_TEST(CE::message(ring.report).find("1 component, 2 borders, genus 0") != std::string::npos, CE::message(ring.report));
+    if(!is_border)
+      BOOST_TEST(ring.report.edges.size() == 6u);
+    for(Edge e : ring.report.edges)
+      BOOST_TEST(ring.seam[e]);
     BOOST_TEST(ring.is_untouched());
   }
   for(Edge e : edges(ring.sm)) // with a second one it is a disk

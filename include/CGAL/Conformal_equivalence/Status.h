@@ -46,7 +46,7 @@ enum class Status
   ITERATIONS_EXHAUSTED,  ///< not converged; `amount` is the residual (radians), `faces` the triangles broken at that point
   DEGENERATE_METRIC,     ///< the minimizer violates the triangle inequality in `faces`; if edges were flipped, in triangles at `vertices`
   NOT_INJECTIVE,         ///< the layout flips `faces`, or its border crosses itself
-  SEAM_LEAVES_NO_DISK,   ///< cut along the given seam, the surface is no disk; see `Flattening_report::topology`
+  SEAM_LEAVES_NO_DISK,   ///< cut along the given seam, `edges`, the surface is no disk; see `Flattening_report::topology`
   SEAM_MISSES_CONE,      ///< the cones at `vertices` are not on the given seam
   STOPPED_BY_VISITOR,    ///< the visitor asked to stop
   OUT_OF_MEMORY,         ///< memory was exhausted

@@ -252,6 +252,12 @@ private:
     {
       report.status = no_disk;
       report.topology = surface_topology(pieces.components[piece]);
+      std::vector<Index> seam; // at the piece
+      for(Index e = 0; e < t.number_of_edges(); ++e)
+        if(cut[e] && (pieces.component_of_vertex[open.origin(t.edge_halfedge(e))] == piece
+                      || pieces.component_of_vertex[open.origin(t.twin(t.edge_halfedge(e)))] == piece))
+          seam.push_back(e);
+      name_elements(mesh, {}, seam, {}, report);
       return false;
     }
     std::vector<Index> missed;

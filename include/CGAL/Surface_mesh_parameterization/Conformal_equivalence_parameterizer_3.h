@@ -177,7 +177,7 @@ public:
   /// \param vpmap receives `true` at every vertex of the component
   ///
   /// \return `to_error_code()` of the status that the report says: one of `flatten()`, or `WRONG_TOPOLOGY` (the component is no disk),
-  ///         `SEAM_LEAVES_NO_DISK` (cut along the seam, it is no disk), `SEAM_MISSES_CONE` (vertices: cones that are not on
+  ///         `SEAM_LEAVES_NO_DISK` (edges: cut along this seam, it is no disk), `SEAM_MISSES_CONE` (vertices: cones that are not on
   ///         the seam, or on the border if there is no seam).
   template <typename VertexUVMap, typename VertexIndexMap, typename VertexParameterizedMap>
   Error_code parameterize(const Triangle_mesh& tm,
