@@ -325,7 +325,7 @@ private:
     const internal::Surface_double<NT> twofold(triangulation_);
     const std::size_t discarded = result.statistics.number_of_discarded_iterations;
     Conformal_metric_solver solver(twofold.triangulation, linear_.traits());
-    solver.solve_flipping(doubled(conditions, twofold), internal_np::Param_not_found(), retriangulation, options, visitor, result);
+    solver.solve_flipping(twofold.conditions(conditions), internal_np::Param_not_found(), retriangulation, options, visitor, result);
     linear_has_flips_ = true; // the traits may share the factor of the other solver
     result.is_doubled = result.statistics.is_doubled = true;
     result.statistics.number_of_discarded_iterations = discarded;
@@ -334,21 +334,6 @@ private:
     const auto is_image = [&](Index v) { return v >= triangulation_.number_of_vertices(); };
     for(std::vector<Index>* vertices : {&result.vertices, &result.active_bounds})
       vertices->erase(std::remove_if(vertices->begin(), vertices->end(), is_image), vertices->end());
-  }
-
-  // The same conditions on both halves of the double.
-  Conformal_conditions<NT> doubled(const Conformal_conditions<NT>& conditions, const internal::Surface_double<NT>& twofold) const
-  {
-    Conformal_conditions<NT> result = twofold.conditions(conditions);
-    for(Index h = 0; h < triangulation_.number_of_halfedges(); ++h)
-    {
-      const Index v = triangulation_.target(h);
-      if(!conditions.is_bounded(v))
-        continue;
-      for(const Index w : {v, twofold.triangulation.origin(twofold.image(h))})
-        result.prescribe_angle_sum_above(w, Exact_angle<NT>(result.angle_sum(w)), NT(conditions.lower_bound(v)));
-    }
-    return result;
   }
 
   // The intrinsic Delaunay triangulation of the metric given, by Euclidean flips.

@@ -248,10 +248,9 @@ Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Confor
   return layout;
 }
 
-// Lays out the pieces for which is_wanted(piece).
 template <typename NT, typename Frame, typename Is_wanted>
-Layout<NT> lay_out(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
-                   const Frame& frame, Is_wanted is_wanted)
+Layout<NT> lay_out_whole(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
+                         const Frame& frame, Is_wanted is_wanted)
 {
   const Wedges wedges = find_wedges(input, cut);
   std::vector<Piece> pieces = find_pieces(input, cut, wedges);
@@ -259,13 +258,15 @@ Layout<NT> lay_out(const Intrinsic_triangulation<NT>& input, const Conformal_met
   return lay_out_pieces(input, metric, cut, wedges, pieces, frame);
 }
 
-// Of a metric of the double: cut along the border, only the surface itself.
+// Lays out the pieces for which is_wanted(piece). Of a metric of the double, cut along the border, only those of the surface itself.
 template <typename NT, typename Frame, typename Is_wanted>
-Layout<NT> lay_out_half(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
-                        const Frame& frame, Is_wanted is_wanted)
+Layout<NT> lay_out(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
+                   const Frame& frame, Is_wanted is_wanted)
 {
+  if(!metric.is_doubled)
+    return lay_out_whole(input, metric, cut, frame, is_wanted);
   const Surface_double<NT> twofold(input);
-  Layout<NT> layout = lay_out(twofold.triangulation, metric, twofold.cut(input, cut), frame, [&](const Piece& piece)
+  Layout<NT> layout = lay_out_whole(twofold.triangulation, metric, twofold.cut(input, cut), frame, [&](const Piece& piece)
     { return piece.faces.front() < input.number_of_faces() && is_wanted(piece); });
   layout.corner.resize(input.number_of_halfedges());
   layout.straight_lengths.resize(input.number_of_edges());
@@ -317,8 +318,7 @@ Layout<NT> compute_layout(const Intrinsic_triangulation<NT>& input,
   }
   const auto frame = choose_parameter(get_parameter(np, internal_np::conformal_layout_frame), Layout_frame::CANONICAL);
   const auto all = [](const internal::Piece&) { return true; };
-  return metric.is_doubled ? internal::lay_out_half(input, metric, cut, frame, all)
-                           : internal::lay_out(input, metric, cut, frame, all);
+  return internal::lay_out(input, metric, cut, frame, all);
 }
 
 } // namespace Conformal_equivalence

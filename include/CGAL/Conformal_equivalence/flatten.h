@@ -296,8 +296,7 @@ private:
         faces_laid_out_ = piece.faces;
       return result;
     };
-    layout = metric.is_doubled ? lay_out_half(mesh.triangulation, metric, cut, frame(np), is_wanted)
-                               : internal::lay_out(mesh.triangulation, metric, cut, frame(np), is_wanted);
+    layout = internal::lay_out(mesh.triangulation, metric, cut, frame(np), is_wanted);
     report.layout_length_error = layout.length_error;
   }
 

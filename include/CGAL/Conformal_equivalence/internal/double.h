@@ -67,16 +67,20 @@ public:
       for(Index w : {v, image_of_vertex_[v]})
       {
         if(given.is_fixed(v))
-          result.fix_log_scale_factor(w, given.log_scale_factor(v));
-        else if(w == v && image_of_vertex_[v] == v)
         {
-          Exact_angle<Number> angle = given.angle_sum(v);
+          result.fix_log_scale_factor(w, given.log_scale_factor(v));
+          continue;
+        }
+        Exact_angle<Number> angle = given.angle_sum(v);
+        if(image_of_vertex_[v] == v)
+        {
           angle.units *= 2;
           angle.rest *= 2;
-          result.prescribe_angle_sum(w, angle);
         }
+        if(given.is_bounded(v))
+          result.prescribe_angle_sum_above(w, angle, given.lower_bound(v));
         else
-          result.prescribe_angle_sum(w, given.angle_sum(v));
+          result.prescribe_angle_sum(w, angle);
       }
     return result;
   }
