@@ -126,12 +126,20 @@ BOOST_AUTO_TEST_CASE(what_the_fixed_triangulation_cannot_do, * needs_mesh("cylin
       Maps m(read_mesh(name));
       Report report;
       const Parameterizer parameterizer(params::log_scale_factor_map(m.u).projective_weight_map(m.weight)
-                                               .flattening_report(std::ref(report)));
+                                               .flattening_report(std::ref(report))
+                                               .retriangulation(CE::Retriangulation::NEVER));
       const SMP::Error_code error = SMP::parameterize(m.sm, parameterizer, m.bhd, m.uv);
       BOOST_TEST((error != SMP::OK));
       BOOST_TEST((error == CE::to_error_code(report.status)));
       BOOST_TEST(!report.faces.empty());
       BOOST_TEST(m.is_untouched());
+
+      // by default edges are flipped; then straight triangles will do, or are named
+      const SMP::Error_code flipped = SMP::parameterize(m.sm, Parameterizer(params::flattening_report(std::ref(report))), m.bhd, m.uv);
+      BOOST_TEST((flipped == CE::to_error_code(report.status)));
+      BOOST_TEST((flipped == SMP::OK || report.status == CE::Status::NOT_INJECTIVE), CE::message(report));
+      BOOST_TEST(report.statistics.number_of_flips > 0u);
+      BOOST_TEST((flipped == SMP::OK) == report.faces.empty());
     }
 }
 
@@ -202,7 +210,7 @@ BOOST_AUTO_TEST_CASE(faults_in_one_of_two_components)
   const Face last(Index(left.triangles.size()));
   m.bhd = opposite(halfedge(last, m.sm), m.sm);
   Report report;
-  const Parameterizer parameterizer(params::flattening_report(std::ref(report)));
+  const Parameterizer parameterizer(params::flattening_report(std::ref(report)).retriangulation(CE::Retriangulation::NEVER));
   BOOST_TEST((SMP::parameterize(m.sm, parameterizer, m.bhd, m.uv) != SMP::OK));
   BOOST_TEST((report.status == CE::Status::DEGENERATE_METRIC));
   BOOST_TEST((report.faces == std::vector<Face>(1, last)));
@@ -233,7 +241,8 @@ BOOST_AUTO_TEST_CASE(errors)
   Maps m(hill(4, .3));
   Report report;
   const auto angle = m.sm.add_property_map<Vertex, double>("v:angle", CGAL_PI).first;
-  BOOST_TEST((SMP::parameterize(m.sm, Parameterizer(params::border_angle_map(angle).flattening_report(std::ref(report))),
+  BOOST_TEST((SMP::parameterize(m.sm, Parameterizer(params::border_angle_map(angle).flattening_report(std::ref(report))
+                                                                   .retriangulation(CE::Retriangulation::NEVER)),
                                 m.bhd, m.uv) == SMP::ERROR_WRONG_PARAMETER));
   BOOST_TEST((report.status == CE::Status::ANGLE_OUT_OF_RANGE));
   BOOST_TEST(m.is_untouched());

@@ -612,7 +612,7 @@ BOOST_AUTO_TEST_CASE(fifty_digits)
 
 Metric refused(const Triangulation& t, const Conditions& conditions, Status status)
 {
-  const Metric metric = CE::compute_conformal_metric(t, conditions);
+  const Metric metric = CE::compute_conformal_metric(t, conditions, params::retriangulation(CE::Retriangulation::NEVER));
   BOOST_CHECK_MESSAGE(metric.status == status, CE::message(metric.status) << " instead of " << CE::message(status));
   BOOST_CHECK(metric.log_scale_factors.empty() && metric.scale_factors.empty());
   BOOST_CHECK_EQUAL(metric.statistics.number_of_iterations, 0);
@@ -747,7 +747,7 @@ BOOST_AUTO_TEST_CASE(degenerate_minimizers_are_named)
       t.set_length(e, t.is_border_edge(e) ? 1 : 2);
     t.set_length(t.edge(1), longest);
     BOOST_REQUIRE(CE::is_valid_metric(t));
-    const Metric metric = CE::compute_conformal_metric(t, Conditions(t));
+    const Metric metric = CE::compute_conformal_metric(t, Conditions(t), params::retriangulation(CE::Retriangulation::NEVER));
     if(longest < 2) // the three border lengths are those of a triangle
     {
       check_solution(metric, Conditions(t));
@@ -758,6 +758,9 @@ BOOST_AUTO_TEST_CASE(degenerate_minimizers_are_named)
     // the minimizer: angle pi in face 0, a right angle in the others
     BOOST_REQUIRE_EQUAL(metric.log_scale_factors.size(), 4);
     BOOST_CHECK_SMALL(metric.log_scale_factors[0] - 2 * std::log(std::sqrt(.5) / 2), 1e-12);
+    // unless told otherwise, edges are flipped then
+    const Metric flipped = CE::compute_conformal_metric(t, Conditions(t));
+    BOOST_CHECK(bool(flipped) && flipped.is_retriangulated());
   }
 }
 

@@ -644,7 +644,7 @@ BOOST_AUTO_TEST_CASE(refused)
     Maps m(icosphere(1));
     equal_cones(m, 4, 2);
     m.cone_angle[Vertex(3)] = angle; // of degree 5
-    const Report report = m.flatten();
+    const Report report = m.flatten(params::retriangulation(CE::Retriangulation::NEVER));
     BOOST_TEST((report.status == Status::ANGLE_OUT_OF_RANGE));
     BOOST_TEST((report.vertex_indices == std::vector<std::size_t>(1, 3)));
     BOOST_TEST(std::abs(report.amount - angle) <= 1e-14);

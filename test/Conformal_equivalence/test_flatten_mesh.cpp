@@ -366,7 +366,8 @@ BOOST_AUTO_TEST_CASE(natural_border_and_all_outputs)
   BOOST_TEST(report["genus"] == 0);
   BOOST_TEST(report["borders"] == 1);
   BOOST_TEST(report["components"] == 1);
-  BOOST_TEST(report["retriangulation"]["mode"] == "never");
+  BOOST_TEST(report["retriangulation"]["mode"] == "when-needed");
+  BOOST_TEST(report["refinement"].is_null());
   BOOST_TEST(report["residual"].get<double>() <= 1e-12);
   BOOST_TEST(report["tolerance"].get<double>() == 1e-12);
   BOOST_TEST(report["flipped_triangles"] == 0);
@@ -910,9 +911,8 @@ BOOST_AUTO_TEST_CASE(retriangulation)
   folder.write("angles.txt", "1 6\n2 174\n3 120\n4 120\n5 120\n");
   const std::string border = "angles=" + (folder / "angles.txt");
 
-  check_refused({input, "-o", obj, "--boundary", border}, 1, "--retriangulate when-needed flips edges");
+  check_refused({input, "-o", obj, "--boundary", border, "--retriangulate", "never"}, 1, "--retriangulate never; other values flip edges");
   check_refused({input, "-o", obj, "--boundary", border, "--retriangulate", "sometimes"}, 2, "unknown value 'sometimes' of --retriangulate");
-  check_refused({input, "-o", obj, "--boundary", border, "--retriangulate", "always", "--projective"}, 1, "edges were flipped");
   BOOST_TEST(!fs::exists(obj));
   for(const char* mode : { "when-needed", "always" })
   {
@@ -930,7 +930,33 @@ BOOST_AUTO_TEST_CASE(retriangulation)
     BOOST_TEST(report["retriangulation"]["flips"].get<int>() > 0);
     BOOST_TEST(report["residual"].get<double>() <= 1e-12);
     BOOST_TEST(report["flipped_triangles"] == 0);
+    BOOST_TEST(report["refinement"].is_null()); // straight triangles will do
 #endif
+  }
+
+  // The mesh of the parts, with the vertices of the input first, on which the map is projective.
+  for(const char* option : { "--refine", "--projective" })
+  {
+    const Run r = run({input, "-o", obj, "--boundary", border, option});
+    BOOST_TEST_REQUIRE(r.status == 0, r.err);
+    BOOST_TEST(contains(r.out, "refined mesh"));
+    const checking::Surface refined = checking::read_surface(obj);
+    BOOST_TEST(refined.points.size() > soup.points.size());
+    BOOST_TEST(refined.faces.size() > soup.triangles.size());
+    for(std::size_t v = 0; v < soup.points.size(); ++v)
+      BOOST_TEST((refined.points[v] == soup.points[v]));
+    for(const auto& corner : refined.corners)
+    {
+      std::array<CGAL::Simple_cartesian<double>::Point_2, 3> p;
+      for(std::size_t k = 0; k < 3; ++k)
+      {
+        const auto& t = refined.texture[corner[k]];
+        p[k] = { t[0] / t[2], t[1] / t[2] };
+      }
+      BOOST_TEST(CGAL::area(p[0], p[1], p[2]) > 0);
+    }
+    const bool is_weighted = std::any_of(refined.texture.begin(), refined.texture.end(), [](const auto& t) { return t[2] != 1; });
+    BOOST_TEST(is_weighted == (option == std::string("--projective")));
   }
 }
 
@@ -1144,7 +1170,7 @@ BOOST_AUTO_TEST_CASE(broken_triangles_are_named_and_nothing_is_written)
     off("1 0 0\n-.805 .593 0\n.995 .1 0\n-.805 .593 .05\n.99 .1 .05\n-.8 .58 .1\n4.5 8.5 2.7\n0 0 0\n",
         "3 0 1 7\n3 1 2 7\n3 2 3 7\n3 3 4 7\n3 4 5 7\n3 5 6 7\n3 6 0 7\n"));
   folder.write("o.obj", "what was there before");
-  const Run r = run({input, "-o", folder / "o.obj", "--svg", folder / "o.svg"});
+  const Run r = run({input, "-o", folder / "o.obj", "--svg", folder / "o.svg", "--retriangulate", "never"});
   BOOST_TEST_MESSAGE(r.err);
   BOOST_TEST(r.status == 1);
   BOOST_TEST(std::count(r.err.begin(), r.err.end(), '\n') == 1);

@@ -8,15 +8,33 @@
 #include "include/boost_test.h"
 #include "include/test_meshes.h"
 
+#include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
+#include <CGAL/Conformal_equivalence/certify.h>
+#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/compute_cut_graph.h>
+#include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Lobachevsky.h>
 #include <CGAL/Conformal_equivalence/internal/energy.h>
 #include <CGAL/Conformal_equivalence/internal/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/solver/wide_newton_step.h>
+#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+#include <CGAL/Conformal_equivalence/multiprecision.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
 
 #include <boost/multiprecision/mpfr.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <type_traits>
 #include <vector>
 
+namespace CE = CGAL::Conformal_equivalence;
 namespace CEi = CGAL::Conformal_equivalence::internal;
 
 typedef boost::multiprecision::mpfr_float Real;
@@ -252,4 +270,392 @@ BOOST_AUTO_TEST_CASE(energy_gradient_and_hessian)
   for(const int bits : { 200, 1000 })
     for(const double bound : { .2, 4. })
       check_energy_at(bits, bound);
+}
+
+// ---------------------------------------------------------------------------
+// The solver. Residuals are measured by something else: angles by atan2 with many more digits.
+// ---------------------------------------------------------------------------
+
+namespace {
+
+typedef CE::Multiprecision_number Number; // the above, without expression templates
+typedef CE::Retriangulation Retriangulation;
+
+// The largest difference of an angle sum from its target, in the metric as it is; counted, not modulo anything.
+template <typename NT>
+Number measured_residual(const CE::Conformal_metric<NT>& metric, const CE::Conformal_conditions<NT>& conditions)
+{
+  const CE::Intrinsic_triangulation<NT>& t = metric.triangulation;
+  std::vector<Number> s, sum(t.number_of_vertices(), Number(0));
+  for(const auto& x : metric.scale_factors)
+    s.push_back(CEi::convert_number<Number>(x));
+  for(std::uint32_t h = 0; h < t.number_of_halfedges(); h += 3)
+  {
+    std::array<Number, 3> l;
+    for(std::uint32_t k = 0; k < 3; ++k)
+      l[k] = s[t.origin(h + k)] * Number(t.halfedge_length(h + k)) * s[t.target(h + k)];
+    const Number half = (l[0] + l[1] + l[2]) / 2, area = sqrt(Number(half * (half - l[0]) * (half - l[1]) * (half - l[2])));
+    for(std::uint32_t k = 0; k < 3; ++k)
+      sum[t.apex(h + k)] += 2 * atan2(area, Number(half * (half - l[k])));
+  }
+  Number result(0);
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    if(!conditions.is_fixed(v))
+      result = (std::max)(result, Number(abs(Number(sum[v] - conditions.angle_sum(v).template radians<Number>()))));
+  return result;
+}
+
+template <typename NT>
+CE::Conformal_metric<NT> solve(const CE::Intrinsic_triangulation<NT>& t, double tolerance)
+{
+  return CE::compute_conformal_metric(t, CE::Conformal_conditions<NT>(t), CGAL::parameters::gradient_tolerance(tolerance));
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(thirty_digits_by_pairs_of_double)
+{
+  const CE::Working_precision precision(300);
+  for(const testing::Soup& soup : { testing::hill(20, .7), testing::random_height_field(15, .5, 3) })
+  {
+    const auto t = testing::triangulation(soup);
+    const CE::Conformal_conditions<double> conditions(t);
+    const auto metric = solve(t, 1e-30);
+    BOOST_TEST((metric.status == CE::Status::OK));
+    BOOST_TEST(metric.statistics.residual <= 1e-30);
+    // the residual itself is computed with errors of some 1e-31
+    BOOST_TEST(static_cast<double>(measured_residual(metric, conditions)) <= 2e-30);
+
+    const auto coarse = solve(t, 1e-12);
+    BOOST_TEST(static_cast<double>(measured_residual(coarse, conditions)) <= 1e-12);
+    BOOST_TEST(metric.statistics.number_of_iterations <= coarse.statistics.number_of_iterations + 1);
+
+    auto spoiled = metric;
+    spoiled.scale_factors[t.number_of_vertices() / 2 + 7] += CEi::Double_double(1e-28);
+    BOOST_TEST(static_cast<double>(measured_residual(spoiled, conditions)) > 2e-30);
+
+    // what pairs cannot do is said, with what they can
+    const auto best = solve(t, 1e-40);
+    BOOST_TEST((best.status == CE::Status::CONVERGED_TO_ROUNDING));
+    BOOST_TEST(best.statistics.residual <= best.statistics.residual_floor);
+    BOOST_TEST(best.statistics.residual_floor < 1e-28);
+    BOOST_TEST(best.amount == best.statistics.residual);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(as_many_digits_as_there_are)
+{
+  for(const unsigned int bits : { 64u, 200u, 1500u })
+  {
+    const auto t = testing::triangulation(testing::hill(6, .7));
+    CE::Conformal_metric<Number> metric;
+    {
+      const CE::Working_precision precision(bits);
+      metric = solve(testing::widened<Number>(t), 0);
+    }
+    BOOST_TEST((metric.status == CE::Status::CONVERGED_TO_ROUNDING));
+    BOOST_TEST(metric.statistics.residual > 0); // also where it is below the range of double
+    const CE::Working_precision precision(2 * bits);
+    const CE::Conformal_conditions<Number> conditions(metric.triangulation);
+    const Number measured = measured_residual(metric, conditions), unit = ldexp(Number(1), -int(bits));
+    BOOST_TEST((measured < 256 * unit)); // 8 epsilon times the sum of 1 + cot + cot around a vertex
+  }
+}
+
+BOOST_AUTO_TEST_CASE(targets_that_were_rounded)
+{
+  // rounded targets meet the Gauss-Bonnet formula only after their defect was spread, with all digits
+  const CE::Working_precision precision(200);
+  const auto t = testing::widened<Number>(testing::triangulation(testing::hill(4, .5)));
+  CE::Conformal_conditions<Number> conditions(t);
+  std::vector<std::uint32_t> border;
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    if(t.is_border_vertex(v))
+      border.push_back(v);
+  const Number pi = CEi::Number_constants<Number>::pi();
+  for(std::size_t i = 0; i < border.size(); ++i)
+    conditions.prescribe_angle_sum(border[i], Number(static_cast<double>(pi - 2 * pi / int(border.size()) + (i % 2 == 0 ? .01 : -.01))));
+  const auto metric = CE::compute_conformal_metric(t, conditions, CGAL::parameters::gradient_tolerance(0.));
+  BOOST_TEST((metric.status == CE::Status::CONVERGED_TO_ROUNDING));
+  BOOST_TEST(metric.statistics.residual <= 1e-57);
+}
+
+// The argument of a product tells an angle up to 4 pi only; the turns are counted.
+BOOST_AUTO_TEST_CASE(turns_are_counted)
+{
+  const CE::Working_precision precision(200);
+  for(const int n : { 6, 12, 18, 24, 30 }) // equilateral triangles around the vertex 0
+  {
+    auto t = testing::triangulation(testing::cone(testing::Index(n), 1));
+    for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
+      t.set_length(e, 1);
+    const CE::Conformal_conditions<double> conditions(t);
+    const double expected = testing::pi * (n / 3 - 2);
+    const std::vector<CEi::Double_double> s(t.number_of_vertices(), CEi::Double_double(1));
+    BOOST_TEST(std::abs(CEi::wide_residual(t, s, conditions)[0] - expected) <= 1e-14);
+
+    const auto wide = testing::widened<Number>(t);
+    const CE::Conformal_conditions<Number> wide_conditions(wide);
+    const std::vector<Number> wide_s(t.number_of_vertices(), Number(1));
+    const CEi::Scaled_vector residual = CEi::scaled_wide_residual(wide, wide_s, wide_conditions);
+    BOOST_TEST(std::abs(std::ldexp(residual.entries[0], residual.exponent) - expected) <= 1e-14);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(residuals_below_the_range_of_double)
+{
+  const CE::Working_precision precision(2000);
+  const auto t = testing::widened<Number>(testing::triangulation(testing::cone(6, 0))); // flat, up to the rounding of the points
+  auto metric = solve(t, 0);
+  const CE::Conformal_conditions<Number> conditions(t);
+  const Number epsilon = ldexp(Number(1), -1500);
+  metric.scale_factors[0] *= 1 + epsilon;
+  const CEi::Scaled_vector residual = CEi::scaled_wide_residual(t, metric.scale_factors, conditions);
+  BOOST_TEST(residual.exponent < -1400);
+  const Number measured = measured_residual(metric, conditions), size = residual.largest<Number>();
+  BOOST_TEST((abs(Number(size - measured)) <= measured * 1e-14));
+}
+
+// Newton's method with all of its linear algebra in the wide type.
+template <typename Wide, typename NT>
+void check_wide_steps(const CE::Intrinsic_triangulation<NT>& t, double limit, int steps)
+{
+  const CE::Conformal_conditions<NT> conditions(t);
+  const auto metric = solve(t, 1e-12);
+  CEi::Edge_graph graph;
+  graph.set_edges(t);
+  std::vector<char> free;
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    free.push_back(conditions.is_fixed(v) ? 0 : 1);
+  graph.set_free(free);
+  std::vector<Wide> s = metric.scale_factors;
+  for(std::size_t v = 0; v < s.size(); ++v)
+    if(free[v])
+      s[v] = s[v] * Wide(1 + 1e-3 * std::sin(double(v)));
+  double size = CEi::scaled_wide_residual(t, s, conditions).largest_entry();
+  for(int step = 0; step < steps; ++step)
+  {
+    BOOST_REQUIRE(CEi::add_wide_newton_step(t, graph, CEi::scaled_wide_residual(t, s, conditions), s));
+    CEi::Scaled_vector residual = CEi::scaled_wide_residual(t, s, conditions);
+    residual.scale_to_one();
+    BOOST_TEST(residual.largest_entry() <= (std::max)({limit, 100 * size * size, 1e-13 * size})); // (residuals have the digits of double)
+    size = residual.largest_entry();
+  }
+  BOOST_TEST(size <= limit);
+}
+
+BOOST_AUTO_TEST_CASE(wide_linear_algebra)
+{
+  const auto t = testing::triangulation(testing::hill(6, .7));
+  check_wide_steps<CEi::Double_double>(t, 1e-30, 5);
+  const CE::Working_precision precision(500);
+  check_wide_steps<Number>(testing::widened<Number>(t), 1e-145, 12);
+}
+
+// ---------------------------------------------------------------------------
+// Certificates
+// ---------------------------------------------------------------------------
+
+namespace {
+
+// A tube with one end closed by a cap: u falls by about 1 over the length of a radius.
+testing::Soup rod(testing::Index length)
+{
+  const testing::Index n = 8;
+  testing::Soup soup = testing::tube(2 * length, n, false, [=](testing::Index i, testing::Index j)
+  {
+    const double x = 2 * testing::pi * (j + .25 * (i % 2)) / n;
+    return testing::Point{{std::cos(x), std::sin(x), .5 * i}};
+  });
+  const testing::Index apex = testing::Index(soup.points.size());
+  soup.points.push_back({{0, 0, -.5}});
+  for(testing::Index j = 0; j < n; ++j)
+    soup.triangles.push_back({{apex, j, (j + 1) % n}});
+  return soup;
+}
+
+struct Problem
+{
+  CE::Intrinsic_triangulation<double> t;
+  CE::Conformal_conditions<double> conditions;
+  CE::Conformal_metric<double> metric;
+  CE::Cut_graph cut;
+
+  explicit Problem(const testing::Soup& soup, Retriangulation mode = Retriangulation::WHEN_NEEDED)
+    : t(testing::triangulation(soup)), conditions(t)
+  {
+    solve(mode, {});
+  }
+
+  void solve(Retriangulation mode, const std::vector<std::uint32_t>& cones)
+  {
+    metric = CE::compute_conformal_metric(t, conditions, CGAL::parameters::retriangulation(mode));
+    cut = CE::compute_cut_graph(t, cones);
+    BOOST_REQUIRE(bool(metric) && bool(cut));
+  }
+
+  CE::Layout_certificate certify(unsigned int most = 4096) const { return CE::certify_layout(t, metric, cut, conditions, most); }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(certificates_without_need_of_digits)
+{
+  for(const Retriangulation mode : { Retriangulation::NEVER, Retriangulation::ALWAYS })
+  {
+    const Problem problem(testing::hill(10, .9), mode);
+    const CE::Layout_certificate certificate = problem.certify();
+    BOOST_TEST(bool(certificate));
+    BOOST_TEST((certificate.status == CE::Status::OK));
+    BOOST_TEST(certificate.precision_in_bits == 106u);
+    BOOST_TEST(certificate.number_of_faces >= problem.t.number_of_faces());
+    BOOST_TEST((certificate.number_of_faces > problem.t.number_of_faces()) == problem.metric.is_retriangulated());
+    BOOST_TEST(certificate.number_of_faces_lost_in_double == 0u);
+    BOOST_TEST(certificate.angle_error <= 1e-13);
+    BOOST_TEST(certificate.exempt_faces.empty());
+  }
+}
+
+// The triangle a, b, c is a segment. Its longest side is flipped, and its parts have area in the plane.
+BOOST_AUTO_TEST_CASE(certificates_with_zero_area_faces)
+{
+  const testing::Soup soup{{{{0, 0, 0}}, {{2, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{1, -1, 0}}},
+                           {{{0, 2, 3}}, {{2, 1, 3}}, {{0, 1, 2}}, {{1, 0, 4}}}};
+  for(const Retriangulation mode : { Retriangulation::WHEN_NEEDED, Retriangulation::ALWAYS })
+  {
+    const Problem problem(soup, mode);
+    BOOST_TEST(problem.metric.is_retriangulated());
+    const CE::Layout_certificate certificate = problem.certify();
+    BOOST_TEST(bool(certificate));
+    BOOST_TEST(certificate.exempt_faces.empty());
+    BOOST_TEST(certificate.number_of_faces > 4u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(certificates_choose_the_precision)
+{
+  const Problem problem(rod(120), Retriangulation::NEVER);
+  const double least = *std::min_element(problem.metric.log_scale_factors.begin(), problem.metric.log_scale_factors.end());
+  BOOST_TEST(least < -74); // 106 bits do not hold both ends
+  const CE::Layout_certificate certificate = problem.certify();
+  BOOST_TEST(bool(certificate));
+  BOOST_TEST(certificate.precision_in_bits >= 212u);
+  BOOST_TEST(certificate.residual < std::ldexp(1., 10 - int(certificate.precision_in_bits)));
+  BOOST_TEST(certificate.number_of_faces_lost_in_double > 0u);
+  BOOST_TEST(certificate.number_of_faces_lost_in_double < certificate.number_of_faces);
+
+  const CE::Layout_certificate cheap = problem.certify(200); // which allows no more than pairs of double
+  BOOST_TEST(!cheap);
+  BOOST_TEST((cheap.status == CE::Status::NOT_INJECTIVE));
+  BOOST_TEST(cheap.precision_in_bits == 106u);
+  BOOST_TEST(!cheap.flipped_faces.empty());
+  // more digits make less
+  BOOST_TEST(cheap.number_of_faces_lost_in_double <= cheap.number_of_faces - cheap.flipped_faces.size());
+}
+
+BOOST_AUTO_TEST_CASE(certificates_are_refused)
+{
+  Problem problem(testing::hill(8, .7), Retriangulation::NEVER);
+  // a metric with triangles that do not fit together
+  const std::uint32_t v = 40;
+  BOOST_REQUIRE(!problem.t.is_border_vertex(v));
+  const CE::Conformal_metric<double> good = problem.metric;
+  problem.metric.scale_factors[v] = problem.metric.scale_factors[v] * 2.;
+  problem.metric.statistics.residual = 1;
+  CE::Layout_certificate certificate = problem.certify(106);
+  BOOST_TEST(!certificate);
+  BOOST_TEST((certificate.status == CE::Status::NOT_INJECTIVE));
+  BOOST_TEST(!certificate.flipped_faces.empty());
+  certificate = problem.certify(); // the next attempt begins by solving again
+  BOOST_TEST(bool(certificate));
+  BOOST_TEST(certificate.precision_in_bits == 212u);
+  problem.metric = good;
+  BOOST_TEST(bool(problem.certify(106)));
+
+  // other conditions than those solved for
+  problem.conditions.prescribe_angle_sum(v, CE::Exact_angle<double>::pi_times(3));
+  certificate = problem.certify(106);
+  BOOST_TEST((certificate.turning_vertices == std::vector<std::uint32_t>{ v }));
+
+  // a cone of 4 pi that is not cut open: positive triangles all around it, twice
+  problem.conditions.prescribe_angle_sum(v, CE::Exact_angle<double>::pi_times(4));
+  problem.solve(Retriangulation::WHEN_NEEDED, {});
+  certificate = problem.certify();
+  BOOST_TEST(!certificate);
+  BOOST_TEST((certificate.turning_vertices == std::vector<std::uint32_t>{ v }));
+  BOOST_TEST(certificate.flipped_faces.empty());
+  BOOST_TEST(certificate.angle_error <= 1e-10);
+  problem.solve(Retriangulation::WHEN_NEEDED, { v });
+  BOOST_TEST(bool(problem.certify()));
+}
+
+// ---------------------------------------------------------------------------
+// The door
+// ---------------------------------------------------------------------------
+
+namespace {
+
+typedef CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3> Mesh;
+
+struct Wide_point
+{
+  Number x_, y_;
+  Wide_point() = default;
+  Wide_point(const Number& x, const Number& y) : x_(x), y_(y) {}
+  const Number& x() const { return x_; }
+  const Number& y() const { return y_; }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(flatten_with_many_digits)
+{
+  const CE::Working_precision precision(200);
+  Mesh mesh = testing::surface_mesh<Mesh>(testing::hill(6, .7));
+  const auto uv = mesh.add_property_map<Mesh::Halfedge_index, Wide_point>("uv").first;
+  const auto rounded_uv = mesh.add_property_map<Mesh::Halfedge_index, CGAL::Simple_cartesian<double>::Point_2>("r").first;
+  const auto u = mesh.add_property_map<Mesh::Vertex_index, Number>("u").first;
+  const auto report = CE::flatten<Number>(mesh, uv, CGAL::parameters::gradient_tolerance(0.).log_scale_factor_map(u));
+  BOOST_REQUIRE(bool(report));
+  BOOST_TEST(report.statistics.residual <= 1e-57);
+  BOOST_TEST(report.layout_length_error <= 1e-56);
+  BOOST_REQUIRE(bool(CE::flatten(mesh, rounded_uv, CGAL::parameters::gradient_tolerance(1e-12))));
+  for(const Mesh::Halfedge_index h : mesh.halfedges())
+    BOOST_TEST(std::hypot(static_cast<double>(uv[h].x()) - rounded_uv[h].x(), static_cast<double>(uv[h].y()) - rounded_uv[h].y()) <= 1e-13);
+
+  // equation (2), for the lengths of the points themselves
+  for(const Mesh::Edge_index e : mesh.edges())
+  {
+    const Mesh::Halfedge_index h = mesh.halfedge(e).idx() % 2 == 0 && !mesh.is_border(mesh.halfedge(e)) ? mesh.halfedge(e) : mesh.opposite(mesh.halfedge(e));
+    if(mesh.is_border(h))
+      continue;
+    const auto &p = mesh.point(mesh.source(h)), &q = mesh.point(mesh.target(h));
+    const Number dx = Number(p.x()) - Number(q.x()), dy = Number(p.y()) - Number(q.y()), dz = Number(p.z()) - Number(q.z());
+    const Wide_point &a = uv[mesh.prev(h)], &b = uv[h];
+    const Number x = a.x() - b.x(), y = a.y() - b.y();
+    const Number scale = exp(Number(u[mesh.source(h)] + u[mesh.target(h)]));
+    BOOST_TEST((abs(Number((x * x + y * y) / (scale * (dx * dx + dy * dy + dz * dz)) - 1)) <= 1e-56));
+  }
+
+  // written with all of their digits
+  std::ostringstream out, rounded_out;
+  BOOST_REQUIRE(CE::IO::write_OBJ(out, mesh, uv) && CE::IO::write_OBJ(rounded_out, mesh, rounded_uv));
+  std::istringstream in(out.str());
+  std::size_t found = 0;
+  for(std::string line; std::getline(in, line); )
+  {
+    if(line.compare(0, 3, "vt ") != 0)
+      continue;
+    const std::size_t space = line.find(' ', 3);
+    const Number x(line.substr(3, space - 3)), y(line.substr(space + 1));
+    bool is_there = false;
+    for(const Mesh::Halfedge_index h : mesh.halfedges())
+      is_there = is_there || (uv[h].x() == x && uv[h].y() == y);
+    BOOST_TEST(is_there);
+    ++found;
+  }
+  BOOST_TEST(found == mesh.number_of_vertices());
+  std::istringstream rounded_in(rounded_out.str());
+  for(std::string line; std::getline(rounded_in, line); )
+    BOOST_TEST(line.size() <= 3 + 2 * 24 + 26u);
 }

@@ -206,6 +206,73 @@ BOOST_AUTO_TEST_CASE(two_flips_turn_an_edge_around_and_four_are_the_identity)
     }
 }
 
+// ---- split_edge()
+
+BOOST_AUTO_TEST_CASE(splits_keep_a_surface_a_surface)
+{
+  Random random(3);
+  for(Triangulation t : surfaces())
+  {
+    const auto before = surface_topology(t, connected_components(t));
+    std::size_t splits[2] = {0, 0}; // inside, on the border
+    for(int n = 0; n < 200; ++n)
+    {
+      const Index e = random.below(t.number_of_edges());
+      if(!t.is_border_edge(e) && !t.is_flippable(e))
+        continue;
+      const bool is_border = t.is_border_edge(e);
+      ++splits[is_border];
+      const Triangulation old = t;
+      const Index h = t.edge_halfedge(e), g = t.twin(h), i = t.origin(h), j = t.target(h), k = t.apex(h),
+                  l = is_border ? Triangulation::null_index : t.apex(g);
+      const Index faces = t.number_of_faces(), edges = t.number_of_edges(), vertices = t.number_of_vertices();
+      const Index m = t.split_edge(e, {{n + .1, n + .2, n + .3, n + .4}});
+
+      check_invariants(t);
+      BOOST_REQUIRE_EQUAL(m, vertices);
+      BOOST_REQUIRE_EQUAL(t.number_of_vertices(), vertices + 1);
+      BOOST_REQUIRE_EQUAL(t.number_of_edges(), edges + (is_border ? 2 : 3));
+      BOOST_REQUIRE_EQUAL(t.number_of_faces(), faces + (is_border ? 1 : 2));
+      BOOST_REQUIRE_EQUAL(t.is_border_vertex(m), is_border);
+      BOOST_REQUIRE_EQUAL(t.degree(m), is_border ? 2 : 4);
+      const auto is_side = [&](Index x, Index from, Index to, Index opposite, Index edge, double length)
+      {
+        return t.origin(x) == from && t.target(x) == to && t.apex(x) == opposite && t.edge(x) == edge && t.length(edge) == length;
+      };
+      BOOST_REQUIRE_EQUAL(t.edge_halfedge(e), h);
+      BOOST_REQUIRE(is_side(h, i, m, k, e, n + .1));
+      BOOST_REQUIRE(is_side(3 * faces, m, j, k, edges, n + .2));
+      BOOST_REQUIRE(is_side(t.next(h), m, k, i, edges + 1, n + .3));
+      if(!is_border)
+      {
+        BOOST_REQUIRE(is_side(g, j, m, l, edges, n + .2));
+        BOOST_REQUIRE(is_side(3 * faces + 3, m, i, l, e, n + .1));
+        BOOST_REQUIRE(is_side(t.next(g), m, l, j, edges + 2, n + .4));
+      }
+      for(Index other = 0; other < edges; ++other) // all else is where it was
+        if(other != e)
+        {
+          BOOST_REQUIRE_EQUAL(t.length(other), old.length(other));
+          BOOST_REQUIRE_EQUAL(t.is_border_edge(other), old.is_border_edge(other));
+          BOOST_REQUIRE(std::minmax(t.origin(t.edge_halfedge(other)), t.target(t.edge_halfedge(other)))
+                        == std::minmax(old.origin(old.edge_halfedge(other)), old.target(old.edge_halfedge(other))));
+        }
+      for(Index v = 0; v < vertices; ++v)
+      {
+        BOOST_REQUIRE_EQUAL(t.is_border_vertex(v), old.is_border_vertex(v));
+        if(!t.is_isolated_vertex(v))
+          BOOST_REQUIRE_EQUAL(t.degree(v), old.degree(v) + (v == k) + (v == l));
+      }
+    }
+    BOOST_TEST(splits[0] > 50);
+    BOOST_TEST((splits[1] > 0) == (before.number_of_borders > 0));
+    const auto after = surface_topology(t, connected_components(t));
+    BOOST_TEST(before.genus == after.genus);
+    BOOST_TEST(before.number_of_borders == after.number_of_borders);
+    BOOST_TEST(before.number_of_components == after.number_of_components);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(edges_with_one_face_are_not_flippable)
 {
   const Triangulation t = self_glued();

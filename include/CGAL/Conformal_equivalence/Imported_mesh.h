@@ -30,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -307,10 +308,25 @@ inline double vector_length(double x, double y, double z)
   return largest * std::sqrt(x * x + y * y + z * z);
 }
 
-template <typename Point>
-double distance(const Point& p, const Point& q)
+// The distance of two points, in `NT`; beyond `double`, coordinates are not rounded first if they need not be.
+template <typename NT = double, typename Point>
+NT distance(const Point& p, const Point& q)
 {
-  return vector_length(CGAL::to_double(q.x() - p.x()), CGAL::to_double(q.y() - p.y()), CGAL::to_double(q.z() - p.z()));
+  if constexpr(std::is_same<NT, double>::value)
+    return vector_length(CGAL::to_double(q.x() - p.x()), CGAL::to_double(q.y() - p.y()), CGAL::to_double(q.z() - p.z()));
+  else
+  {
+    using std::sqrt;
+    const auto number = [](const auto& x)
+    {
+      if constexpr(std::is_constructible<NT, decltype(x)>::value)
+        return NT(x);
+      else
+        return NT(CGAL::to_double(x));
+    };
+    const NT x = number(q.x()) - number(p.x()), y = number(q.y()) - number(p.y()), z = number(q.z()) - number(p.z());
+    return NT(sqrt(NT(x * x + y * y + z * z)));
+  }
 }
 
 template <typename Point>
@@ -341,7 +357,7 @@ void set_lengths_from_points(Imported_mesh<TriangleMesh, NT>& mesh, VertexPointM
   for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
   {
     const std::uint32_t h = t.edge_halfedge(e);
-    t.set_length(e, NT(distance(get(vpm, mesh.vertex(t.origin(h))), get(vpm, mesh.vertex(t.target(h))))));
+    t.set_length(e, NT(distance<NT>(get(vpm, mesh.vertex(t.origin(h))), get(vpm, mesh.vertex(t.target(h))))));
   }
 }
 

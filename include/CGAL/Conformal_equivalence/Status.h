@@ -50,7 +50,8 @@ enum class Status
   SEAM_MISSES_CONE,      ///< the cones at `vertices` are not on the given seam
   STOPPED_BY_VISITOR,    ///< the visitor asked to stop
   OUT_OF_MEMORY,         ///< memory was exhausted
-  NOT_AVAILABLE          ///< an option was asked for that this version does not have
+  TOO_MANY_CROSSINGS,    ///< the overlay of two triangulations would have `amount` crossings: more than allowed
+  NOT_REPRESENTABLE      ///< the mesh type cannot hold the result: it would have several edges between the same vertices
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -71,10 +72,10 @@ struct Status_entry
 
 // The one table of statuses: what they say, and what CGAL's parameterizers call
 // them. In the order of the enumeration.
-inline const std::array<Status_entry, 21>& status_table()
+inline const std::array<Status_entry, 22>& status_table()
 {
   namespace SMP = Surface_mesh_parameterization;
-  static const std::array<Status_entry, 21> table = {{
+  static const std::array<Status_entry, 22> table = {{
     { Status::OK, "success", SMP::OK },
     { Status::CONVERGED_TO_ROUNDING, "converged to the rounding of the number type", SMP::OK },
     { Status::EMPTY_MESH, "the mesh has no face", SMP::ERROR_EMPTY_MESH },
@@ -95,7 +96,8 @@ inline const std::array<Status_entry, 21>& status_table()
     { Status::SEAM_MISSES_CONE, "the seam misses a cone", SMP::ERROR_NO_TOPOLOGICAL_DISC },
     { Status::STOPPED_BY_VISITOR, "stopped by the visitor", SMP::ERROR_WRONG_PARAMETER },
     { Status::OUT_OF_MEMORY, "out of memory", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM },
-    { Status::NOT_AVAILABLE, "this version does not have the option asked for", SMP::ERROR_WRONG_PARAMETER }
+    { Status::TOO_MANY_CROSSINGS, "the overlay of the triangulations has too many crossings", SMP::ERROR_WRONG_PARAMETER },
+    { Status::NOT_REPRESENTABLE, "the mesh cannot hold the result", SMP::ERROR_WRONG_PARAMETER }
   }};
   return table;
 }
@@ -144,7 +146,8 @@ enum class Conformal_class
 {
   FIXED_TRIANGULATION,   ///< to the one given, on its triangulation: all length cross ratios are kept
   GIVEN_TRIANGULATION,   ///< to the one given, in the sense of discrete uniformization: with Ptolemy flips of its triangulation
-  DELAUNAY_TRIANGULATION ///< the same, with flips of its intrinsic Delaunay triangulation: depends on the surface alone
+  DELAUNAY_TRIANGULATION, ///< the same, with flips of its intrinsic Delaunay triangulation: depends on the surface alone
+  REPAIRED               ///< to the one given, on a triangulation with some edges flipped or split where triangles broke: `repair_locally()`
 };
 
 /// \ingroup PkgConformalEquivalenceEnums
@@ -156,6 +159,15 @@ enum class Delaunay_property
   EXACT,           ///< yes, by exact predicates on the numbers that are stored
   WITHIN_ROUNDING, ///< yes, for lengths that differ from those stored by no more than rounding can have done
   NO               ///< no: some edges were left
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// In which numbers the linear systems of the last steps were solved, which reduce the residual of the wide number type.
+enum class Refinement_arithmetic
+{
+  DOUBLE,       ///< in `double`, by the factor that was there
+  WIDE_WEIGHTS, ///< in `double`, by the factor of a matrix computed in the wide type
+  WIDE          ///< in the wide type
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -184,7 +196,9 @@ struct Statistics
   Delaunay_property delaunay = Delaunay_property::NOT_ASKED; ///< whether the triangulation found is Delaunay
   std::size_t number_of_discarded_iterations = 0; ///< Newton steps on the fixed triangulation, before flips were found to be needed
   double residual = 0;                         ///< largest difference of an angle sum from its target (radians)
-  double residual_floor = 0;                   ///< below it `double` cannot tell a residual from rounding (radians)
+  /// below it a residual cannot be told from rounding (radians): in `double`, or, if only this was reached, in the wide number type
+  double residual_floor = 0;
+  Refinement_arithmetic refinement_arithmetic = Refinement_arithmetic::DOUBLE; ///< in which the last steps were computed
   double angle_defect_spread = 0;              ///< total angle added to inexact targets to meet Gauss-Bonnet (radians)
   std::size_t number_of_regularized_rows = 0;  ///< zero rows of the Hessian that had to be regularized
   std::vector<double> residuals;               ///< the residual before each Newton step, and at the end
@@ -270,6 +284,11 @@ struct [[nodiscard]] Flattening_report
   std::vector<Cone<TriangleMesh> > cones;                    ///< in the order of `vertices(tm)`
   std::vector<Seam_transition<TriangleMesh> > transitions;   ///< one for every edge of the seam; none across the borders of charts
   std::vector<Period_lattice<> > lattices;                   ///< of the tori, in the order of their first faces
+
+  /// faces whose images are positive in the common refinement, while the straight triangles between the images of their corners are
+  /// flipped or flat; none unless a refinement was asked for
+  std::vector<face_descriptor> bent_faces;
+
   /// @}
 
   /// is `true` iff the result is usable.
@@ -316,6 +335,7 @@ inline void print_amount(std::ostream& out, Status status, double amount)
             << amount << " radians";
       break;
     case Status::ANGLE_OUT_OF_RANGE:    out << ": " << amount << " radians"; break;
+    case Status::TOO_MANY_CROSSINGS:    out << ": " << amount; break;
     default: break;
   }
 }

@@ -34,6 +34,26 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 
+namespace internal {
+
+// The angle that the user gave, in whatever precision: multiples of pi / 2520 are recognized in its own.
+template <typename NT, typename Given>
+Exact_angle<NT> given_angle(const Given& radians)
+{
+  if constexpr(std::is_arithmetic<Given>::value && !std::is_same<NT, double>::value)
+  {
+    const Exact_angle<double> rounded(static_cast<double>(radians));
+    Exact_angle<NT> result;
+    result.units = rounded.units;
+    result.rest = NT(rounded.rest);
+    return result;
+  }
+  else
+    return Exact_angle<NT>(NT(radians));
+}
+
+} // namespace internal
+
 /// \ingroup PkgConformalEquivalenceSolver
 ///
 /// reads the conditions at the vertices of an imported mesh from property maps.
@@ -102,14 +122,14 @@ Conformal_conditions<NT> read_conditions(const Imported_mesh<TriangleMesh, NT>& 
     else if(is_border)
     {
       if constexpr(has_border_angles)
-        conditions.prescribe_angle_sum(v, NT(get(get_parameter(np, internal_np::conformal_border_angle), vd)));
+        conditions.prescribe_angle_sum(v, internal::given_angle<NT>(get(get_parameter(np, internal_np::conformal_border_angle), vd)));
       else
         missing.push_back(v);
     }
     else
     {
       if constexpr(has_cone_angles)
-        conditions.prescribe_angle_sum(v, NT(get(get_parameter(np, internal_np::conformal_cone_angle), vd)));
+        conditions.prescribe_angle_sum(v, internal::given_angle<NT>(get(get_parameter(np, internal_np::conformal_cone_angle), vd)));
       else
         conditions.prescribe_angle_sum(v, Exact_angle<NT>::pi_times(2));
     }

@@ -126,7 +126,7 @@ struct Common_refinement
 
   /// @}
 
-  /// `OK`, `EMPTY_MESH`, or `OUT_OF_MEMORY`: more crossings than allowed, or than there is memory for
+  /// `OK`, `EMPTY_MESH`, `TOO_MANY_CROSSINGS` (more than allowed), or `OUT_OF_MEMORY`
   Status status = Status::OK;
   double amount = 0;                 ///< the number of crossings; for a metric of the double, of both halves
 
@@ -176,7 +176,7 @@ public:
     if(record.has_overflowed() || record.total_crossings() > maximum_number_of_crossings
        || record.total_crossings() + input_.number_of_vertices() >= result_.null_index)
     {
-      result_.status = Status::OUT_OF_MEMORY;
+      result_.status = Status::TOO_MANY_CROSSINGS;
       return std::move(result_);
     }
     find_positions(frame);
@@ -362,7 +362,7 @@ private:
 ///   \cgalParamNBegin{layout_frame} \cgalParamDescription{as in `compute_layout()`} \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \return the refinement, with the verdict on its faces (exact for `double`; for other numbers a face counts as positive if that is certain), or `EMPTY_MESH`, `OUT_OF_MEMORY`.
+/// \return the refinement, with the verdict on its faces (exact for `double`; for other numbers a face counts as positive if that is certain), or `EMPTY_MESH`, `TOO_MANY_CROSSINGS`, `OUT_OF_MEMORY`.
 ///         Time and memory are linear in the sizes of the triangulations and the number of crossings.
 /// \pre `metric` is a success; its triangulation is `input`, or was made from it by `Conformal_metric::flips`.
 ///

@@ -24,6 +24,7 @@
 #include <CGAL/Conformal_equivalence/internal/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/newton.h>
 #include <CGAL/Conformal_equivalence/internal/solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/solver/wide_newton_step.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/wide_residual.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -126,7 +127,12 @@ public:
   ///   \cgalParamNBegin{retriangulation}
   ///     \cgalParamDescription{whether edges may be flipped, so that there is a solution for all angles that sum up to what they must}
   ///     \cgalParamType{`Retriangulation`}
-  ///     \cgalParamDefault{`Retriangulation::NEVER`}
+  ///     \cgalParamDefault{`Retriangulation::WHEN_NEEDED`}
+  ///   \cgalParamNEnd
+  ///   \cgalParamNBegin{border_edges}
+  ///     \cgalParamDescription{whether border edges may be flipped, where there is no metric with only edges inside flipped; `Conformal_metric::lost_border_edges` tells which were}
+  ///     \cgalParamType{`Border_edges`}
+  ///     \cgalParamDefault{`Border_edges::FLIPPABLE`}
   ///   \cgalParamNEnd
   ///   \cgalParamNBegin{initial_log_scale_factor_map}
   ///     \cgalParamDescription{where to begin, instead of at the last solution}
@@ -147,7 +153,7 @@ public:
   ///    `GAUSS_BONNET_VIOLATED` (the vertices with an angle that is not flat, or the border), `NO_ANGLE_LEFT` (the vertices
   ///    of fixed or bounded u): the conditions have no solution, nothing was computed;
   ///  - `DEGENERATE_METRIC`: the minimizer was found, but is no metric: `faces` violate the
-  ///    triangle inequality, decided exactly;
+  ///    triangle inequality, decided exactly; or, with `Retriangulation::ALWAYS`, there are `faces` among those given that do;
   ///  - `ITERATIONS_EXHAUSTED` (`amount`: the residual; `faces`: the triangles broken there),
   ///    `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`, `OUT_OF_MEMORY`.
   template <typename NamedParameters = parameters::Default_named_parameters>
@@ -190,11 +196,14 @@ private:
     auto visitor = choose_parameter<Default_visitor>(get_parameter(np, internal_np::visitor));
     const auto initial = get_parameter(np, internal_np::conformal_initial_u);
     const Retriangulation retriangulation =
-      choose_parameter(get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::NEVER);
+      choose_parameter(get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::WHEN_NEEDED);
+
+    const Border_edges border_edges =
+      choose_parameter(get_parameter(np, internal_np::conformal_border_edges), Border_edges::FLIPPABLE);
 
     try
     {
-      solve(conditions, initial, retriangulation, options, internal::unwrap(visitor), result);
+      solve(conditions, initial, retriangulation, border_edges, options, internal::unwrap(visitor), result);
     }
     catch(const std::bad_alloc&)
     {
@@ -225,7 +234,7 @@ private:
 
   template <typename Initial, typename Visitor>
   void solve(const Conformal_conditions<NT>& conditions, const Initial& initial, Retriangulation retriangulation,
-             const internal::Newton_options& options, Visitor& visitor, Metric& result)
+             Border_edges border_edges, const internal::Newton_options& options, Visitor& visitor, Metric& result)
   {
     if(retriangulation != Retriangulation::ALWAYS)
     {
@@ -233,13 +242,25 @@ private:
       if(retriangulation == Retriangulation::NEVER || !may_be_helped_by_flips(result))
         return;
     }
+    const Metric refused = result.status == Status::ANGLE_OUT_OF_RANGE ? result : Metric();
     discard(result);
     solve_flipping(conditions, initial, retriangulation, options, visitor, result);
-    if(may_be_helped_by_flips(result) && has_border())
+    if(refused.status == Status::ANGLE_OUT_OF_RANGE && is_balance_violated(result.status))
+    {
+      result = refused; // says more: it may be the reason why the angles sum up to what cannot be
+      return;
+    }
+    if(may_be_helped_by_flips(result) && has_border() && border_edges == Border_edges::FLIPPABLE)
     {
       discard(result);
       solve_on_double(conditions, retriangulation, options, visitor, result);
     }
+  }
+
+  // Do the prescribed angles sum up to what cannot be?
+  static bool is_balance_violated(Status status)
+  {
+    return status == Status::GAUSS_BONNET_VIOLATED || status == Status::NO_ANGLE_LEFT;
   }
 
   // Begins anew.
@@ -330,19 +351,22 @@ private:
     result.is_doubled = result.statistics.is_doubled = true;
     result.statistics.number_of_discarded_iterations = discarded;
     if(is_success(result.status))
+    {
       result.log_scale_factors.resize(triangulation_.number_of_vertices());
+      result.lost_border_edges = twofold.lost_border_edges(triangulation_, result.flips);
+    }
     const auto is_image = [&](Index v) { return v >= triangulation_.number_of_vertices(); };
     for(std::vector<Index>* vertices : {&result.vertices, &result.active_bounds})
       vertices->erase(std::remove_if(vertices->begin(), vertices->end(), is_image), vertices->end());
   }
 
-  // The intrinsic Delaunay triangulation of the metric given, by Euclidean flips.
+  // The intrinsic Delaunay triangulation of the metric given, by Euclidean flips. Triangles may be degenerate, or violate their
+  // inequality by the rounding of their lengths: then they count as degenerate.
   bool make_delaunay(Flip_observer& observer, Metric& result) const
   {
     const auto length = [&](Index h) { return triangulation_.halfedge_length(h); };
     for(Index h = 0; h < triangulation_.number_of_halfedges(); h += 3)
-      if(!internal::is_triangle(length(h), length(h + 1), length(h + 2))
-         && !internal::is_degenerate_triangle(length(h), length(h + 1), length(h + 2)))
+      if(!internal::is_triangle_up_to_rounding(length(h), length(h + 1), length(h + 2)))
         result.faces.push_back(h / 3);
     if(!result.faces.empty())
     {
@@ -381,10 +405,8 @@ private:
         newton(energy, linear_, target, options, result.statistics, visitor, bounds);
       result.status = newton(u);
     }
-    if(result.status == Status::OK && bounds.empty())
-      refine(t, energy, conditions, u, options.tolerance, result);
-    else if(result.status == Status::OK)
-      refine_within_bounds(t, energy, conditions, bounds, u, options.tolerance, result);
+    if(result.status == Status::OK)
+      finish(t, energy, conditions, bounds, u, options.tolerance, result);
     if(is_success(result.status) && conditions.has_bounds())
       settle(conditions, result.scale_factors);
     if(is_success(result.status))
@@ -392,6 +414,28 @@ private:
     result.statistics.number_of_factorizations = linear_.number_of_factorizations() - factorizations_before;
     result.statistics.number_of_regularized_rows = linear_.number_of_regularized_rows();
     judge(t, energy, result);
+  }
+
+  // The last steps; then edges are flipped that are not Delaunay by so little that rounding has hidden it on the way.
+  // Angle sums hardly differ between both triangulations, but as there may be needles they are made right again.
+  template <typename Any_energy>
+  void finish(const Triangulation& t, Any_energy& energy, const Conformal_conditions<NT>& conditions,
+              const internal::Lower_bounds& bounds, Vertex_vector& u, double tolerance, Metric& result)
+  {
+    const std::size_t steps = result.statistics.residuals.size();
+    for(int round = 0; round < 10; ++round)
+    {
+      result.statistics.residuals.resize(steps);
+      result.status = Status::OK;
+      if(bounds.empty())
+        refine(t, energy, conditions, u, tolerance, result);
+      else
+        refine_within_bounds(t, energy, conditions, bounds, u, tolerance, result);
+      if constexpr(Any_energy::has_flips)
+        if(is_success(result.status) && energy.make_delaunay(result.scale_factors, u))
+          continue;
+      return;
+    }
   }
 
   bool check(Conformal_conditions<NT>& conditions, bool triangulation_is_fixed, Metric& result)
@@ -535,54 +579,136 @@ private:
     }
   }
 
-  // The last steps, with the residual in the wide type and the linear systems in double.
+  // The last steps, with the residual in the wide type and the linear systems in double: each step gains as many digits as the
+  // linear system is solved for, up to the rounding of its matrix. As a residual costs more than an iteration of conjugate
+  // gradients, every system is solved for as many digits as can be gained. Where that comes to nothing before the tolerance is
+  // reached, the matrix is that of the wide metric, factorized anew; then all of the linear algebra runs in the wide type.
   // A step with error e^3 in s is as good as any: what counts is the s that comes out.
   template <typename Any_energy>
   void refine(const Triangulation& t, const Any_energy& energy, const Conformal_conditions<NT>& conditions,
               Vertex_vector& u, double tolerance, Metric& result)
   {
-    using std::exp;
     center(u);
     std::vector<Wide_number>& s = result.scale_factors;
     s.resize(u.size());
     for(Index v = 0; v < u.size(); ++v)
-      s[v] = conditions.is_fixed(v) ? Wide_number(exp(Wide_number(conditions.log_scale_factor(v)) / 2))
-                                    : Wide_number(exp(u[v] / 2));
+      s[v] = half_exponential(conditions.is_fixed(v) ? Wide_number(conditions.log_scale_factor(v)) : Wide_number(u[v]));
 
-    Vertex_vector residual = internal::wide_residual(t, s, conditions);
-    double size = internal::largest_entry(residual);
     const double goal = 1e-4 * tolerance; // so that layouts are not spoiled by the sum of all residuals
-    for(int step = 0; step < 50 && size > goal; ++step)
+    Wide_number known_floor(0);
+    const auto floor = [&]
     {
-      linear_.graph().clear_fixed(residual);
-      Vertex_vector d;
-      bool converged;
-      result.statistics.number_of_linear_iterations
-        += linear_.conjugate_gradients(energy.weights(), residual, (std::max)(1e-3, 0.3 * goal / size), 100, d, converged);
-      center(d);
+      if(known_floor == 0)
+        known_floor = 8 * std::numeric_limits<Wide_number>::epsilon() * largest_sensitivity(energy);
+      return known_floor;
+    };
+    internal::Scaled_vector residual = internal::scaled_wide_residual(t, s, conditions), next;
+    Wide_number size = residual.template largest<Wide_number>();
+    Refinement_arithmetic& arithmetic = result.statistics.refinement_arithmetic;
+    arithmetic = Refinement_arithmetic::DOUBLE;
+    std::vector<double> wide_weights; // empty: those of the energy
+    double gain = (std::max)(1e-12, (std::min)(1e-3, static_cast<double>(size))); // of a step: the next residual relative to the last
+    while(size > goal && !(size <= tolerance && size <= floor()) && std::isfinite(static_cast<double>(size)))
+    {
+      const double wanted = (std::max)({gain / 10, 1e-14, 0.3 * static_cast<double>(Wide_number(goal / size))});
       std::vector<Wide_number> moved = s;
-      for(Index v = 0; v < u.size(); ++v)
-        if(d[v] != 0)
-          moved[v] = s[v] + s[v] * (d[v] / 2 + d[v] * d[v] / 8);
-      residual = internal::wide_residual(t, moved, conditions);
-      const double moved_size = internal::largest_entry(residual);
-      if(!(moved_size < size))
+      const bool has_moved = arithmetic == Refinement_arithmetic::WIDE
+        ? internal::add_wide_newton_step(t, linear_.graph(), residual, moved)
+        : add_newton_step(wide_weights.empty() ? energy.weights() : wide_weights, residual, (std::min)(1e-3, wanted), result, moved);
+      Wide_number next_size = size;
+      if(has_moved)
+      {
+        next = internal::scaled_wide_residual(t, moved, conditions);
+        next_size = next.template largest<Wide_number>();
+      }
+      if(next_size < size)
+      {
+        gain = static_cast<double>(Wide_number(next_size / size));
+        s.swap(moved);
+        std::swap(residual, next);
+        size = next_size;
+        if(gain < (size > tolerance ? 0.1 : 0.5))
+          continue;
+      }
+      // nothing much is gained any more; what cannot be gained is the rounding of the targets, which then do not add up to what they must
+      if(size <= tolerance || solvable(residual) <= floor() || arithmetic == Refinement_arithmetic::WIDE)
         break;
-      s.swap(moved);
-      const bool is_slow = moved_size > size / 2;
-      size = moved_size;
-      if(is_slow)
+      gain = 1e-12;
+      if(arithmetic == Refinement_arithmetic::DOUBLE)
+      {
+        arithmetic = Refinement_arithmetic::WIDE_WEIGHTS;
+        wide_weights = internal::wide_weights(t, s);
+        if(linear_.factorize(wide_weights))
+          continue;
+      }
+      if(size <= result.statistics.residual_floor && tolerance >= std::numeric_limits<double>::epsilon())
         break;
+      arithmetic = Refinement_arithmetic::WIDE;
     }
 
-    result.statistics.residual = size;
-    result.statistics.residuals.push_back(size);
-    if(size > tolerance)
-    {
-      result.amount = size;
-      result.status = size <= result.statistics.residual_floor ? Status::CONVERGED_TO_ROUNDING
-                                                               : Status::ITERATIONS_EXHAUSTED;
-    }
+    result.statistics.residual = rounded_up(size);
+    result.statistics.residuals.push_back(result.statistics.residual);
+    if(size <= tolerance)
+      return;
+    if(size <= floor())
+      result.statistics.residual_floor = rounded_up(floor());
+    result.amount = result.statistics.residual;
+    result.status = result.statistics.residual <= result.statistics.residual_floor ? Status::CONVERGED_TO_ROUNDING
+                                                                                   : Status::ITERATIONS_EXHAUSTED;
+  }
+
+  // Multiplies `s` by e^{d / 2} for the d of a step of Newton's method with the weights `w`. Returns whether there was a factor for it.
+  bool add_newton_step(const std::vector<double>& w, const internal::Scaled_vector& residual, double tolerance,
+                       Metric& result, std::vector<Wide_number>& s)
+  {
+    using std::ldexp;
+    Vertex_vector right = residual.entries, d;
+    linear_.graph().clear_fixed(right);
+    bool converged;
+    const std::size_t few = 30, many = 200;
+    result.statistics.number_of_linear_iterations += linear_.conjugate_gradients(w, right, tolerance, few, d, converged);
+    if(!converged && linear_.factorize(w))
+      result.statistics.number_of_linear_iterations += linear_.conjugate_gradients(w, right, tolerance, many, d, converged);
+    center(d);
+    for(Index v = 0; v < d.size(); ++v)
+      if(d[v] != 0)
+      {
+        const Wide_number step = ldexp(Wide_number(d[v]), residual.exponent);
+        s[v] = s[v] + s[v] * (step / 2 + step * step / 8);
+      }
+    return linear_.has_factor();
+  }
+
+  // The largest entry at a vertex where u is unknown.
+  Wide_number solvable(internal::Scaled_vector residual) const
+  {
+    linear_.graph().clear_fixed(residual.entries);
+    return residual.template largest<Wide_number>();
+  }
+
+  // e^{u/2}
+  static Wide_number half_exponential(const Wide_number& u)
+  {
+    using std::exp;
+    return Wide_number(exp(Wide_number(u / 2)));
+  }
+
+  // As a double that is not 0 unless x is.
+  static double rounded_up(const Wide_number& x)
+  {
+    return x == 0 ? 0 : (std::max)(static_cast<double>(x), std::numeric_limits<double>::denorm_min());
+  }
+
+  // By how many units of epsilon rounding may move the angle sums, at most.
+  template <typename Any_energy>
+  double largest_sensitivity(const Any_energy& energy) const
+  {
+    double result = 1;
+    const Vertex_vector sensitivity = energy.sensitivities();
+    for(Index v = 0; v < sensitivity.size(); ++v)
+      if(linear_.graph().is_free(v))
+        result = (std::max)(result, sensitivity[v]);
+    return result;
   }
 
   // The same with some of the bounds active, as the solution has them: where Newton's method could not tell by
@@ -603,7 +729,7 @@ private:
       linear_.hold(active);
       result.status = Status::OK;
       refine(t, energy, equalities, u, tolerance, result);
-      if(!is_success(result.status) || !exchange_bounds(t, energy, conditions, bounds, tolerance, result, active))
+      if(!is_success(result.status) || !exchange_bounds(t, conditions, bounds, tolerance, result, active))
         return;
       for(Index v = 0; v < u.size(); ++v)
         u[v] = active[v] ? bounds.bound[v] : static_cast<double>(logarithm(result.scale_factors[v]));
@@ -612,16 +738,11 @@ private:
   }
 
   // Activates the bounds that are violated, and releases those where the angle sum is too large. Returns whether there were any.
-  template <typename Any_energy>
-  bool exchange_bounds(const Triangulation& t, const Any_energy& energy, const Conformal_conditions<NT>& conditions,
-                       const internal::Lower_bounds& bounds, double tolerance, const Metric& result, std::vector<char>& active) const
+  bool exchange_bounds(const Triangulation& t, const Conformal_conditions<NT>& conditions, const internal::Lower_bounds& bounds,
+                       double tolerance, const Metric& result, std::vector<char>& active) const
   {
     const double most = (std::max)(tolerance, result.statistics.residual);
-    const Vertex_vector target = targets(conditions);
-    Vertex_vector residual = internal::wide_residual(t, result.scale_factors, conditions);
-    for(Index v = 0; v < residual.size(); ++v)
-      if(std::abs(energy.angle_sums()[v] - target[v]) > 1e-3) // the wide one is known up to multiples of 4 pi
-        residual[v] = energy.angle_sums()[v] - target[v];
+    const Vertex_vector residual = internal::wide_residual(t, result.scale_factors, conditions);
     bool is_changed = false;
     for(Index v = 0; v < active.size(); ++v)
     {

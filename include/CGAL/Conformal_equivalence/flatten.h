@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
+#include <CGAL/Conformal_equivalence/common_refinement.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
@@ -46,24 +47,51 @@ namespace internal {
 
 // One flattening: the stages one after the other, each a value that the next takes.
 // What the user gets is written by the caller, from `metric`, `cut` and `layout`.
-template <typename TriangleMesh>
+template <typename TriangleMesh, typename NT = double>
 struct Flattening
 {
   typedef std::uint32_t Index;
 
-  Imported_mesh<TriangleMesh> mesh;
-  Conformal_metric<double> metric;
+  Imported_mesh<TriangleMesh, NT> mesh;
+  Conformal_metric<NT> metric;
   Cut_graph cut;
-  Layout<double> layout;
+  Layout<NT> layout;
+  Common_refinement<NT> refinement; // empty unless asked for
   Flattening_report<TriangleMesh> report;
 
-  explicit Flattening(Imported_mesh<TriangleMesh> imported) : mesh(std::move(imported)) {}
+  explicit Flattening(Imported_mesh<TriangleMesh, NT> imported) : mesh(std::move(imported)) {}
 
   // The whole surface: lengths, conditions, metric, cut, layout, verdict; stops where one of them fails.
   template <typename NamedParameters>
   void run(const NamedParameters& np)
   {
-    run_stages(np, [&] { return true; }, [&] { find_cut(np); }, [&] { lay_out(np); });
+    run_stages(np, [&] { return true; }, [&] { find_cut(np); }, [&] { lay_out(np); }, [&] { verify(); });
+  }
+
+  // The same with the common refinement, on which the verdict is then. Without flips the mesh is its own refinement, and none is made
+  // unless `is_always_made`.
+  template <typename NamedParameters>
+  void run_with_refinement(const NamedParameters& np, bool is_always_made)
+  {
+    const auto lay_out_twice = [&]
+    {
+      lay_out(np);
+      if(metric.is_retriangulated() || is_always_made)
+        refine(np);
+    };
+    run_stages(np, [&] { return true; }, [&] { find_cut(np); }, lay_out_twice, [&] { verify_refinement(); });
+  }
+
+  // Names the triangles with parts that are not exactly positive, as rounded.
+  void judge(const Common_refinement<NT>& parts)
+  {
+    std::vector<Index> flipped;
+    for(const std::vector<Index>* faces : {&parts.flipped_faces, &parts.rounded_faces})
+      for(Index f : *faces)
+        flipped.push_back(parts.input_face[f]);
+    std::sort(flipped.begin(), flipped.end());
+    flipped.erase(std::unique(flipped.begin(), flipped.end()), flipped.end());
+    refuse_flipped(flipped);
   }
 
   // The same where the cut is given, and only the piece to which `face` belongs is laid out. It must be a disk, with all cones
@@ -72,12 +100,12 @@ struct Flattening
   void run_along(Cut_graph given_cut, Index face, Status no_disk, const NamedParameters& np)
   {
     cut = std::move(given_cut);
-    run_stages(np, [&] { return check_cut(face, no_disk); }, [] {}, [&] { lay_out_piece(face, np); });
+    run_stages(np, [&] { return check_cut(face, no_disk); }, [] {}, [&] { lay_out_piece(face, np); }, [&] { verify(); });
   }
 
 private:
-  template <typename NamedParameters, typename Check, typename Find_cut, typename Lay_out>
-  void run_stages(const NamedParameters& np, Check check, Find_cut find_the_cut, Lay_out lay_it_out)
+  template <typename NamedParameters, typename Check, typename Find_cut, typename Lay_out, typename Verify>
+  void run_stages(const NamedParameters& np, Check check, Find_cut find_the_cut, Lay_out lay_it_out, Verify verify_it)
   {
     using parameters::choose_parameter;
     using parameters::get_parameter;
@@ -94,7 +122,7 @@ private:
       if(bool(report))
         timed(seconds.layout, Stage::LAYOUT, visitor, lay_it_out);
       if(bool(report))
-        timed(seconds.verify, Stage::VERIFY, visitor, [&] { verify(); });
+        timed(seconds.verify, Stage::VERIFY, visitor, verify_it);
       if(bool(report))
         tell_what_was_found();
     }
@@ -135,7 +163,7 @@ private:
       name_elements(mesh, missing, {}, {}, report);
       return false;
     }
-    const Intrinsic_triangulation<double>& t = mesh.triangulation;
+    const Intrinsic_triangulation<NT>& t = mesh.triangulation;
     for(Index v = 0; v < t.number_of_vertices(); ++v)
       if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v) && conditions_.is_cone(v))
         cones_.push_back(v);
@@ -145,16 +173,19 @@ private:
   template <typename NamedParameters>
   void solve(const NamedParameters& np)
   {
-    const auto own_np = Conformal_equivalence::combine_named_parameters(np, initial_guess(np));
-    const bool is_kept = parameters::choose_parameter(parameters::get_parameter(np, internal_np::conformal_retriangulation),
-                                                      Retriangulation::NEVER) == Retriangulation::NEVER;
-    if(is_kept)
+    typedef typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t, NamedParameters,
+                                                         Default_solver_traits>::type Solver_traits;
+    using parameters::choose_parameter;
+    using parameters::get_parameter;
     {
-      metric = compute_conformal_metric(std::move(mesh.triangulation), conditions_, own_np);
-      mesh.triangulation = metric.triangulation; // copied only now: the solver has freed its memory
+      Conformal_metric_solver<NT, Solver_traits> solver(
+        std::move(mesh.triangulation), choose_parameter<Solver_traits>(get_parameter(np, internal_np::sparse_linear_solver)));
+      metric = std::move(solver).solve(conditions_, Conformal_equivalence::combine_named_parameters(np, initial_guess(np)));
+      if(metric.is_retriangulated())
+        mesh.triangulation = solver.triangulation();
     }
-    else
-      metric = compute_conformal_metric(mesh.triangulation, conditions_, own_np);
+    if(!metric.is_retriangulated())
+      mesh.triangulation = metric.triangulation; // copied only now: the solver has freed its memory
 
     const Statistics::Seconds seconds = report.statistics.seconds;
     report.statistics = metric.statistics;
@@ -167,7 +198,7 @@ private:
       name_elements(mesh, metric.vertices, metric.edges, metric.faces, report);
   }
 
-  std::vector<Index> vertices_of_faces(const Conformal_metric<double>& metric) const
+  std::vector<Index> vertices_of_faces(const Conformal_metric<NT>& metric) const
   {
     std::vector<Index> result = metric.vertices;
     for(Index f : metric.faces)
@@ -244,8 +275,8 @@ private:
   // Is the piece that a given cut leaves at `face` a disk with all cones on its border?
   bool check_cut(Index face, Status no_disk)
   {
-    const Intrinsic_triangulation<double>& t = mesh.triangulation;
-    const Intrinsic_triangulation<double> open = cut_open(t, cut);
+    const Intrinsic_triangulation<NT>& t = mesh.triangulation;
+    const Intrinsic_triangulation<NT> open = cut_open(t, cut);
     const Surface_components pieces = connected_components(open);
     const Index piece = pieces.component_of_vertex[open.origin(3 * face)];
     if(!pieces.components[piece].is_disk())
@@ -316,106 +347,135 @@ private:
     return {mesh.index_of_vertex(frame.first), frame.first_point, mesh.index_of_vertex(frame.second), frame.second_point};
   }
 
+  // The overlay, with the corners of the mesh where they are in `layout`.
+  template <typename NamedParameters>
+  void refine(const NamedParameters& np)
+  {
+    refinement = compute_common_refinement(mesh.triangulation, metric, cut, default_maximum_number_of_crossings,
+                                           parameters::layout_frame(frame(np)));
+    report.status = refinement ? report.status : refinement.status;
+    report.amount = refinement ? report.amount : refinement.amount;
+  }
+
   // ---- Verdict
 
-  // Every triangle of the layout, as rounded, is exactly positive, or named.
-  void verify()
+  // The straight triangles of the layout that are not exactly positive, as rounded; for other numbers than `double`, not certainly.
+  std::vector<Index> flipped_triangles() const
   {
     std::vector<Index> flipped;
-    const auto point = [&](Index h) { return Plane_point(layout.corner[h][0], layout.corner[h][1]); };
     for(Index f : faces_laid_out_)
-      if(triangle_orientation({{point(3 * f), point(3 * f + 1), point(3 * f + 2)}}) != CGAL::LEFT_TURN)
+      if(!is_left_turn(layout.corner[3 * f], layout.corner[3 * f + 1], layout.corner[3 * f + 2]))
         flipped.push_back(f);
+    return flipped;
+  }
+
+  void refuse_flipped(const std::vector<Index>& flipped)
+  {
     if(flipped.empty())
       return;
     report.status = Status::NOT_INJECTIVE;
     name_elements(mesh, {}, {}, flipped, report);
   }
 
+  // Every triangle is positive, or named.
+  void verify() { refuse_flipped(flipped_triangles()); }
+
+  // Every part of a triangle is positive, or the triangle is named.
+  void verify_refinement()
+  {
+    if(refinement.number_of_faces() == 0)
+      return verify();
+    judge(refinement);
+    for(Index f : flipped_triangles())
+      report.bent_faces.push_back(mesh.face(f));
+  }
+
   void tell_what_was_found()
   {
     for(Index v : cones_)
       report.cones.push_back({mesh.vertex(v), mesh.index_of_vertex(mesh.vertex(v)),
-                              conditions_.is_fixed(v) ? angle_sum(v) : conditions_.angle_sum(v).radians(), conditions_.is_fixed(v)});
-    for(const Transition<double>& motion : layout.transitions)
-      report.transitions.push_back({mesh.halfedge(motion.halfedge), motion.rotation, motion.translation});
-    for(Period_lattice<double> lattice : layout.lattices)
-    {
-      lattice.face = mesh.position_of_face(Index(lattice.face));
-      report.lattices.push_back(lattice);
-    }
+                              conditions_.is_fixed(v) ? angle_sum(v) : conditions_.angle_sum(v).template radians<double>(),
+                              conditions_.is_fixed(v)});
+    const auto rounded = [](const std::array<NT, 2>& z) { return std::array<double, 2>{{static_cast<double>(z[0]), static_cast<double>(z[1])}}; };
+    for(const Transition<NT>& motion : layout.transitions)
+      report.transitions.push_back({mesh.halfedge(motion.halfedge), rounded(motion.rotation), rounded(motion.translation)});
+    for(const Period_lattice<NT>& lattice : layout.lattices)
+      report.lattices.push_back({mesh.position_of_face(Index(lattice.face)),
+                                 {{rounded(lattice.periods[0]), rounded(lattice.periods[1])}}, rounded(lattice.tau)});
   }
 
   // The angle sum at `v` in the metric found.
   double angle_sum(Index v) const
   {
     double result = 0;
-    const Intrinsic_triangulation<double>& t = metric.triangulation;
+    const Intrinsic_triangulation<NT>& t = metric.triangulation;
     t.for_each_outgoing(v, [&](Index h)
     {
-      const Incircle_form<Double_double> triangle = wide_triangle(t, metric.scale_factors, h / 3);
-      result += 2 * std::atan2(to_double(triangle.r), to_double(triangle.tangent[(h + 1) % 3]));
+      const auto triangle = wide_triangle(t, metric.scale_factors, h / 3);
+      result += 2 * std::atan2(static_cast<double>(triangle.r), static_cast<double>(triangle.tangent[(h + 1) % 3]));
     });
     return result;
   }
 
-  Conformal_conditions<double> conditions_;
+  Conformal_conditions<NT> conditions_;
   std::vector<Index> cones_;           // in increasing order
   std::vector<Index> faces_laid_out_;
 };
 
 // The faces of `tm`, in charts if there is a map of patches: edges between different patches become borders.
-template <typename TriangleMesh, typename NamedParameters>
-Imported_mesh<TriangleMesh> import_charts(const TriangleMesh& tm, const NamedParameters& np)
+template <typename NT = double, typename TriangleMesh, typename NamedParameters>
+Imported_mesh<TriangleMesh, NT> import_charts(const TriangleMesh& tm, const NamedParameters& np)
 {
   CGAL_USE(np);
   if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::face_patch_t>::value)
-    return Imported_mesh<TriangleMesh>(tm);
+    return Imported_mesh<TriangleMesh, NT>(tm);
   else
   {
     const auto patch = parameters::get_parameter(np, internal_np::face_patch);
     const auto is_between_charts = [&](typename boost::graph_traits<TriangleMesh>::edge_descriptor e)
       { return !(get(patch, face(halfedge(e, tm), tm)) == get(patch, face(opposite(halfedge(e, tm), tm), tm))); };
-    return Imported_mesh<TriangleMesh>(tm, faces(tm), is_between_charts);
+    return Imported_mesh<TriangleMesh, NT>(tm, faces(tm), is_between_charts);
   }
 }
 
 // Writes u, weights and scaled lengths to the maps that were given for them.
-template <typename TriangleMesh, typename NamedParameters>
-void write_metric(const Flattening<TriangleMesh>& flattening, const NamedParameters& np)
+template <typename TriangleMesh, typename NT, typename NamedParameters>
+void write_metric(const Flattening<TriangleMesh, NT>& flattening, const NamedParameters& np)
 {
   using parameters::get_parameter;
   using parameters::is_default_parameter;
-  const Imported_mesh<TriangleMesh>& mesh = flattening.mesh;
-  const Intrinsic_triangulation<double>& t = mesh.triangulation;
-  const std::vector<double>& u = flattening.metric.log_scale_factors;
+  const Imported_mesh<TriangleMesh, NT>& mesh = flattening.mesh;
+  const Intrinsic_triangulation<NT>& t = mesh.triangulation;
+  const std::vector<NT>& u = flattening.metric.log_scale_factors;
   double least = (std::numeric_limits<double>::max)();
   for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
     if(!t.is_isolated_vertex(v))
-      least = (std::min)(least, u[v]);
+      least = (std::min)(least, static_cast<double>(u[v]));
+  const auto write = [&](auto map, const auto& key, const NT& x)
+    { put(map, key, static_cast<typename boost::property_traits<decltype(map)>::value_type>(x)); };
 
   if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_u_t>::value)
     for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
       if(!t.is_isolated_vertex(v))
-        put(get_parameter(np, internal_np::conformal_u), mesh.vertex(v), u[v]);
+        write(get_parameter(np, internal_np::conformal_u), mesh.vertex(v), u[v]);
   if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_weight_t>::value)
     for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
       if(!t.is_isolated_vertex(v))
-        put(get_parameter(np, internal_np::conformal_weight), mesh.vertex(v), projective_weight(u[v], least));
+        put(get_parameter(np, internal_np::conformal_weight), mesh.vertex(v), projective_weight(static_cast<double>(u[v]), least));
   if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_scaled_length_t>::value)
     for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
-      put(get_parameter(np, internal_np::conformal_scaled_length), mesh.edge(e),
-          flattening.layout.straight_lengths.empty() ? flattening.metric.scaled_length(t.edge_halfedge(e))
-                                                     : flattening.layout.straight_lengths[e]);
+      write(get_parameter(np, internal_np::conformal_scaled_length), mesh.edge(e),
+            flattening.layout.straight_lengths.empty() ? flattening.metric.scaled_length(t.edge_halfedge(e))
+                                                       : flattening.layout.straight_lengths[e]);
 }
 
 // Writes the corners to all halfedges of imported faces; a halfedge without a face
 // gets the corner of the face across. That comes first: on a Seam_mesh both may have the same key.
-template <typename TriangleMesh, typename HalfedgeUVMap>
-void write_corners(const Imported_mesh<TriangleMesh>& mesh, const Layout<double>& layout, HalfedgeUVMap uv)
+template <typename TriangleMesh, typename NT, typename HalfedgeUVMap>
+void write_corners(const Imported_mesh<TriangleMesh, NT>& mesh, const Layout<NT>& layout, HalfedgeUVMap uv)
 {
   typedef typename boost::property_traits<HalfedgeUVMap>::value_type Point_2;
-  const Intrinsic_triangulation<double>& t = mesh.triangulation;
+  const Intrinsic_triangulation<NT>& t = mesh.triangulation;
   const auto point = [&](std::uint32_t h) { return Point_2(layout.corner[h][0], layout.corner[h][1]); };
   for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
   {
@@ -434,13 +494,13 @@ void write_corners(const Imported_mesh<TriangleMesh>& mesh, const Layout<double>
 }
 
 // Writes the seam: the edges that were cut, and those between charts.
-template <typename TriangleMesh, typename NamedParameters>
-void write_seam(const Flattening<TriangleMesh>& flattening, const NamedParameters& np)
+template <typename TriangleMesh, typename NT, typename NamedParameters>
+void write_seam(const Flattening<TriangleMesh, NT>& flattening, const NamedParameters& np)
 {
   CGAL_USE(np);
   if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_edge_is_seam_t>::value)
   {
-    const Imported_mesh<TriangleMesh>& mesh = flattening.mesh;
+    const Imported_mesh<TriangleMesh, NT>& mesh = flattening.mesh;
     for(std::uint32_t e = 0; e < mesh.triangulation.number_of_edges(); ++e)
     {
       const auto ed = mesh.edge(e);
@@ -474,9 +534,11 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 /// components, each of which is a problem of its own. The layouts of the components do not overlap one another. Isolated vertices
 /// are carried through untouched.
 ///
-/// The triangulation is kept unless `retriangulation` says otherwise. If edges were flipped, length cross ratios are not preserved, as
+/// The triangulation is kept where it has a solution, see `retriangulation`. If edges were flipped, length cross ratios are not preserved, as
 /// it is another triangulation that was scaled; points are written for the corners of the mesh, whose edges are no straight
-/// lines in the flat surface, and a straight triangle between these points may be flipped, which is reported (`NOT_INJECTIVE`).
+/// lines in the flat surface, and a straight triangle between these points may be flipped, which is reported (`NOT_INJECTIVE`). The
+/// map is continuous and positive on the parts of the triangles that the edges of both triangulations make: with `common_refinement` these
+/// are what the verdict is on, and `flatten_refined()` makes a mesh of them.
 ///
 /// *Cones* are interior vertices whose angle sum is prescribed (`cone_angle_map`) and not 2 pi, or where u is prescribed instead
 /// (`vertex_is_constrained_map`: a free cone). On a component where no u is prescribed, the curvatures 2 pi - angle at interior vertices
@@ -490,9 +552,14 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 /// A `Seam_mesh` is taken for the surface that it is, cut open, with maps of its own vertices and edges; to use its seam
 /// just for cutting, see `Surface_mesh_parameterization::Conformal_equivalence_parameterizer_3`.
 ///
+/// Lengths, angles and points may have more digits than `double`: `flatten<NT>(tm, uv, np)`, where `NT` is a binary floating-point number of
+/// Boost.Multiprecision; for as many digits as it holds with `gradient_tolerance(0.)`, where the status then is `CONVERGED_TO_ROUNDING`. The
+/// verdict is on the points of that type.
+///
+/// \tparam NT number type of lengths, of u, and of the points
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam HalfedgeUVMap a model of `WritablePropertyMap` with key type
-///         `boost::graph_traits<TriangleMesh>::%halfedge_descriptor` and a value type that can be made from two `double`, such as
+///         `boost::graph_traits<TriangleMesh>::%halfedge_descriptor` and a value type that can be made from two `NT`, for `double` such as
 ///         `Point_2` of any kernel
 /// \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
 ///
@@ -559,6 +626,11 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 ///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, newton_strategy, retriangulation, visitor}
 ///     \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
 ///   \cgalParamNBegin{sparse_linear_solver} \cgalParamDescription{as in `compute_conformal_metric()`} \cgalParamNEnd
+///   \cgalParamNBegin{common_refinement}
+///     \cgalParamDescription{if edges were flipped, receives the overlay of the mesh with the triangulation of the metric, see `compute_common_refinement()`; otherwise one without faces. Straight triangles that are flipped are then not refused, but listed in the report (`bent_faces`)}
+///     \cgalParamType{`std::reference_wrapper<Common_refinement<NT> >`}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{flattening_report}
 ///     \cgalParamDescription{receives a copy of what is returned}
 ///     \cgalParamType{`std::reference_wrapper<Flattening_report<TriangleMesh> >`}
@@ -568,28 +640,33 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 ///
 /// \return the report, with the cones, the motions across the seam edges, and the lattices of tori. Maps are written iff it is a success.
 ///         Statuses: those of `import_mesh()` and `Conformal_metric_solver::solve()`, `MISSING_CONDITION` (vertices), those of
-///         `compute_cut_graph()` (edges, faces), and `NOT_INJECTIVE` (faces: triangles that rounding has made flat or flipped, where
-///         scale factors range too far for `double`).
+///         `compute_cut_graph()` (edges, faces), those of `compute_common_refinement()` if it was asked for, and `NOT_INJECTIVE` (faces: triangles
+///         that are flat or flipped: straight triangles where edges were flipped, or, where scale factors range too far for `double`, by rounding).
 ///
 /// Time is that of the solver, see `Conformal_metric_solver::solve()`, and O(n log n) for the cut; all else is linear.
 ///
 /// \sa `CGAL::Conformal_equivalence::make_seam_mesh()`
 /// \sa `CGAL::Conformal_equivalence::verify_layout()`
-template <typename TriangleMesh, typename HalfedgeUVMap,
+template <typename NT = double, typename TriangleMesh, typename HalfedgeUVMap,
           typename NamedParameters = parameters::Default_named_parameters>
 Flattening_report<TriangleMesh> flatten(const TriangleMesh& tm,
                                         HalfedgeUVMap uv,
                                         const NamedParameters& np = parameters::default_values())
 {
   const internal::Stopwatch stopwatch;
-  internal::Flattening<TriangleMesh> flattening{internal::import_charts(tm, np)};
+  internal::Flattening<TriangleMesh, NT> flattening{internal::import_charts<NT>(tm, np)};
   flattening.report.statistics.seconds.import = stopwatch.seconds();
-  flattening.run(np);
+  if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::conformal_common_refinement_t>::value)
+    flattening.run(np);
+  else
+    flattening.run_with_refinement(np, false);
   if(bool(flattening.report))
   {
     internal::write_corners(flattening.mesh, flattening.layout, uv);
     internal::write_metric(flattening, np);
     internal::write_seam(flattening, np);
+    if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_common_refinement_t>::value)
+      parameters::get_parameter(np, internal_np::conformal_common_refinement).get() = std::move(flattening.refinement);
   }
   internal::write_report(flattening.report, np);
   return flattening.report;

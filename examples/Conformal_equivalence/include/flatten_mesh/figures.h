@@ -64,11 +64,17 @@ struct Figures
   CE::Conformal_distortion<Mesh> distortion;
   std::size_t number_of_isolated_vertices = 0;
   double u_min = 0, u_max = 0;
+
+  // the common refinement, if that was written
+  bool is_refined = false;
+  std::size_t number_of_crossings = 0, number_of_refined_vertices = 0, number_of_refined_faces = 0;
+
   double reading_seconds = 0, verifying_seconds = 0, writing_seconds = 0;
 };
 
-inline void find_range_of_u(const Mesh& mesh, const Result& result, Figures& figures)
+inline void find_range_of_u(const Result& result, Figures& figures)
 {
+  const Mesh& mesh = result.mesh;
   figures.u_min = std::numeric_limits<double>::infinity();
   figures.u_max = -figures.u_min;
   for(Vertex v : mesh.vertices())
@@ -81,12 +87,19 @@ inline void find_range_of_u(const Mesh& mesh, const Result& result, Figures& fig
     }
 }
 
-inline void judge(const Mesh& mesh, const Result& result, Figures& figures)
+inline void describe_refinement(const Result& result, const Refinement& refinement, bool is_refined, Figures& figures)
+{
+  figures.is_refined = is_refined;
+  figures.number_of_crossings = refinement.crossings.size();
+  figures.number_of_refined_vertices = result.mesh.number_of_vertices();
+  figures.number_of_refined_faces = result.mesh.number_of_faces();
+}
+
+inline void judge(const Result& result, Figures& figures)
 {
   const Stopwatch watch;
-  figures.verdict = CE::verify_layout(mesh, result.uv);
-  figures.distortion = CE::compute_conformal_distortion(mesh, result.uv);
-  find_range_of_u(mesh, result, figures);
+  figures.verdict = CE::verify_layout(result.mesh, result.uv);
+  figures.distortion = CE::compute_conformal_distortion(result.mesh, result.uv);
   figures.verifying_seconds = watch.seconds();
 }
 
@@ -164,6 +177,8 @@ inline Lines summary(const Mesh& mesh, const Figures& figures)
     figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? " (the limit of rounding)" : ""));
   if(s.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION)
     lines.emplace_back("triangulation", text(class_text(s), ": ", s.number_of_flips, " flips", s.is_doubled ? ", on the double" : ""));
+  if(figures.is_refined)
+    lines.emplace_back("refined mesh", text(figures.number_of_refined_vertices, " vertices, ", figures.number_of_refined_faces, " triangles"));
   lines.emplace_back("log scale factor u", text("from ", figures.u_min, " to ", figures.u_max));
   lines.emplace_back("quasi-conformal factor", text("mean ", figures.distortion.mean_quasi_conformal_factor,
                                                      ", max ", figures.distortion.maximum_quasi_conformal_factor));
@@ -217,6 +232,10 @@ inline std::string json_report(const Options& options, const Mesh& mesh, const F
   json["borders"] = t.number_of_borders;
   json["components"] = t.number_of_components;
   json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips}, {"doubled", s.is_doubled} };
+  json["refinement"] = nullptr;
+  if(figures.is_refined)
+    json["refinement"] = { {"crossings", figures.number_of_crossings}, {"vertices", figures.number_of_refined_vertices},
+                           {"faces", figures.number_of_refined_faces} };
   json["newton_steps"] = s.number_of_iterations;
   json["pcg_iterations"] = s.number_of_linear_iterations;
   json["factorizations"] = s.number_of_factorizations;

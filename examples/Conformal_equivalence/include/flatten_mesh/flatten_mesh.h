@@ -12,6 +12,7 @@
 #include "messages.h"
 #include "options.h"
 #include "Output_files.h"
+#include "refine.h"
 #include "solve.h"
 
 #include <CGAL/Conformal_equivalence/IO/write_HTML.h>
@@ -70,10 +71,11 @@ inline void announce_outputs(const Options& options, const Material_files& besid
 [[noreturn]] inline void fail_to_flatten(const Options& options, const Report& report)
 {
   const bool may_be_the_triangulation = options.retriangulation == CE::Retriangulation::NEVER
-    && (report.status == CE::Status::DEGENERATE_METRIC || report.status == CE::Status::ITERATIONS_EXHAUSTED);
+    && (report.status == CE::Status::DEGENERATE_METRIC || report.status == CE::Status::ITERATIONS_EXHAUSTED
+        || (report.status == CE::Status::ANGLE_OUT_OF_RANGE && report.amount > 0));
   const bool lacks_cones = report.status == CE::Status::MISSING_CONDITION && options.cone_file.empty();
   fail(options.input, ": ", CE::message(report),
-       may_be_the_triangulation ? " (the triangulation is kept; --retriangulate when-needed flips edges)" : lacks_cones ? " (--cones FILE)" : "");
+       may_be_the_triangulation ? " (--retriangulate never; other values flip edges)" : lacks_cones ? " (--cones FILE)" : "");
 }
 
 inline std::string list_of_faces(const std::vector<Face>& faces)
@@ -97,8 +99,9 @@ inline void require_verdict(const Options& options, const Figures& figures)
 }
 
 // What gives a triangle its colour in the drawing.
-inline Face_map<double> face_colors(const Options& options, Mesh& mesh, const Result& result)
+inline Face_map<double> face_colors(const Options& options, const Result& result)
 {
+  Mesh& mesh = result.mesh;
   Face_map<double> value = mesh.add_property_map<Face, double>("f:color", 0.).first;
   for(Face f : mesh.faces())
   {
@@ -120,10 +123,10 @@ inline CE::IO::HTML_options drawing_options(const Options& options, const Mesh& 
 }
 
 // The checkerboard of the material: about 20 squares along the layout.
-inline double texture_repetitions(const Mesh& mesh, const Result& result)
+inline double texture_repetitions(const Result& result)
 {
   CE::internal::Finite_range x, y;
-  for(Halfedge h : mesh.halfedges())
+  for(Halfedge h : result.mesh.halfedges())
   {
     x.insert(result.uv[h].x());
     y.insert(result.uv[h].y());
@@ -132,41 +135,41 @@ inline double texture_repetitions(const Mesh& mesh, const Result& result)
   return longest > 0 && std::isfinite(longest) ? 0.5 / CE::internal::round_number_below(longest / 14) : 1;
 }
 
-inline void write_obj(const Options& options, const Mesh& mesh, const Result& result,
-                      const Material_files& beside, Output_files& files)
+inline void write_obj(const Options& options, const Result& result, const Material_files& beside, Output_files& files)
 {
   CE::IO::OBJ_material material;
   material.file = name_without_folder(beside.material);
   files.write(options.obj, [&](std::ostream& out)
   {
     return options.projective
-      ? CE::IO::write_OBJ(out, mesh, result.uv, CGAL::parameters::projective_weight_map(result.weight), material)
-      : CE::IO::write_OBJ(out, mesh, result.uv, CGAL::parameters::default_values(), material);
+      ? CE::IO::write_OBJ(out, result.mesh, result.uv, CGAL::parameters::projective_weight_map(result.weight), material)
+      : CE::IO::write_OBJ(out, result.mesh, result.uv, CGAL::parameters::default_values(), material);
   });
   if(beside.material.empty())
     return;
   files.write(beside.material, [&](std::ostream& out)
   {
-    return CE::IO::write_MTL(out, material.name, name_without_folder(beside.texture), texture_repetitions(mesh, result));
+    return CE::IO::write_MTL(out, material.name, name_without_folder(beside.texture), texture_repetitions(result));
   });
   files.write(beside.texture, [](std::ostream& out) { return CE::IO::write_checkerboard_PNG(out); });
 }
 
-inline void write_outputs(const Options& options, Mesh& mesh, const Result& result, const Material_files& beside,
+// `mesh` is what was given; `result` is drawn, of that mesh or of its refinement.
+inline void write_outputs(const Options& options, const Mesh& mesh, const Result& result, const Material_files& beside,
                           Figures& figures, Output_files& files)
 {
   const Stopwatch watch;
   if(! options.obj.empty())
-    write_obj(options, mesh, result, beside, files);
+    write_obj(options, result, beside, files);
   if(! options.svg.empty() || ! options.html.empty())
   {
-    const Face_map<double> colors = face_colors(options, mesh, result);
+    const Face_map<double> colors = face_colors(options, result);
     const CE::IO::HTML_options drawing = drawing_options(options, mesh, figures);
     if(! options.svg.empty())
-      files.write(options.svg, [&](std::ostream& out) { return CE::IO::write_SVG(out, mesh, result.uv, colors, drawing.svg); });
+      files.write(options.svg, [&](std::ostream& out) { return CE::IO::write_SVG(out, result.mesh, result.uv, colors, drawing.svg); });
     if(! options.html.empty())
       files.write(options.html, [&](std::ostream& out)
-        { return CE::IO::write_HTML(out, mesh, result.uv, colors, drawing, CGAL::parameters::projective_weight_map(result.weight)); });
+        { return CE::IO::write_HTML(out, result.mesh, result.uv, colors, drawing, CGAL::parameters::projective_weight_map(result.weight)); });
   }
   figures.writing_seconds = watch.seconds();
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
@@ -191,18 +194,26 @@ inline void run(const Options& options, std::ostream& out, std::ostream& err)
 
   Conditions conditions(mesh);
   set_conditions(options, mesh, conditions);
-  Result result(mesh);
+  Result given(mesh);
+  Refinement refinement;
   {
     Progress progress(err, ! options.quiet && is_terminal(err));
-    figures.report = flatten(options, mesh, conditions, result, progress);
+    figures.report = flatten(options, conditions, given, refinement, progress);
   }
   if(! figures.report)
     fail_to_flatten(options, figures.report);
-  if(options.projective && figures.report.statistics.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION)
-    fail(options.input, ": edges were flipped, and the weights of --projective are those of the triangulation before");
-  judge(mesh, result, figures);
+  find_range_of_u(given, figures);
+
+  Mesh refined_mesh;
+  Result refined(refined_mesh);
+  const bool is_refined = is_refinement_needed(options, figures.report, refinement);
+  if(is_refined)
+    make_refined_mesh(options, given, refinement, refined);
+  const Result& drawn = is_refined ? refined : given;
+  describe_refinement(drawn, refinement, is_refined, figures);
+  judge(drawn, figures);
   require_verdict(options, figures);
-  write_outputs(options, mesh, result, beside, figures, files);
+  write_outputs(options, mesh, drawn, beside, figures, files);
   if(! options.quiet)
     print_summary(out, options, mesh, figures);
 }
@@ -229,7 +240,7 @@ inline int flatten_mesh(int argc, const char* const argv[], std::ostream& out, s
   }
   catch(const Usage_error& e)
   {
-    err << "flatten_mesh: " << e.what() << " (see flatten_mesh --help)" << std::endl;
+    err << "flatten_mesh: " << one_line(e.what()) << " (see flatten_mesh --help)" << std::endl;
     return 2;
   }
   catch(const std::bad_alloc&)
@@ -238,7 +249,7 @@ inline int flatten_mesh(int argc, const char* const argv[], std::ostream& out, s
   }
   catch(const std::exception& e)
   {
-    err << "flatten_mesh: " << e.what() << std::endl;
+    err << "flatten_mesh: " << one_line(e.what()) << std::endl;
   }
   return 1;
 }

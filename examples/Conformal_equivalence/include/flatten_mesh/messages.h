@@ -28,6 +28,15 @@ std::string text(const Parts&... parts)
 template <typename... Parts>
 [[noreturn]] void fail(const Parts&... parts) { throw Failure(text(parts...)); }
 
+// A message is one line, whatever values and names of files it quotes.
+inline std::string one_line(std::string message)
+{
+  for(char& c : message)
+    if(static_cast<unsigned char>(c) < 0x20)
+      c = '?';
+  return message;
+}
+
 } // namespace flattening
 
 #endif // FLATTEN_MESH_MESSAGES_H

@@ -32,8 +32,8 @@ struct Options
   std::string cone_file;
   bool unit_square = false;
   bool color_by_quasi_conformal_factor = false;
-  bool projective = false, require_injective = false, quiet = false;
-  CGAL::Conformal_equivalence::Retriangulation retriangulation = CGAL::Conformal_equivalence::Retriangulation::NEVER;
+  bool refine = false, projective = false, require_injective = false, quiet = false;
+  CGAL::Conformal_equivalence::Retriangulation retriangulation = CGAL::Conformal_equivalence::Retriangulation::WHEN_NEEDED;
   double tolerance = 1e-12;
   unsigned int maximum_number_of_iterations = 100;
   std::string solver;
@@ -68,9 +68,11 @@ inline po::options_description visible_options()
     ("quantize", po::value<std::string>()->implicit_value("90"), "cones at multiples of this angle in degrees (not in this version)")
     ("seamless", po::bool_switch(), "a seamless layout (not in this version)")
     ("tiles", po::value<std::size_t>(), "number of tiles of a seamless layout (not in this version)")
-    ("retriangulate", po::value<std::string>()->default_value("never"), "never: edges are kept\n"
-       "when-needed: edges are flipped where there is no solution otherwise\n"
+    ("retriangulate", po::value<std::string>()->default_value("when-needed"), "never: edges are kept\n"
+       "when-needed: edges are flipped where there is no solution otherwise (default)\n"
        "always: the result depends on the surface alone, not on its triangulation")
+    ("refine", po::bool_switch(), "if edges were flipped, write the mesh of the parts into which they cut the triangles, on which the "
+       "map is projective; otherwise this is done with --projective, and where the triangles are flipped if their edges are drawn straight")
     ("local-repair", po::bool_switch(), "split triangles that break (not in this version)")
     ("projective", po::bool_switch(), "write homogeneous texture coordinates u*w, v*w, w")
     ("require-injective", po::bool_switch(), "fail if the layout overlaps itself")
@@ -283,6 +285,7 @@ inline Options parse_options(int argc, const char* const argv[])
   options.unit_square = values["frame"].as<std::string>() == "unit-square";
   options.color_by_quasi_conformal_factor = values["color-by"].as<std::string>() == "qc";
   options.retriangulation = parse_retriangulation(values["retriangulate"].as<std::string>());
+  options.refine = values["refine"].as<bool>();
   options.projective = values["projective"].as<bool>();
   options.require_injective = values["require-injective"].as<bool>();
   options.quiet = values["quiet"].as<bool>();

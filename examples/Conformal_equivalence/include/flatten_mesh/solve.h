@@ -9,6 +9,7 @@
 #include "messages.h"
 #include "options.h"
 
+#include <CGAL/Conformal_equivalence/common_refinement.h>
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -27,7 +28,8 @@
 
 namespace flattening {
 
-typedef CE::Flattening_report<Mesh> Report;
+typedef CE::Flattening_report<Mesh>   Report;
+typedef CE::Common_refinement<double> Refinement;
 
 // Shows on a terminal how far the computation is, in one line that is wiped out at the end.
 class Progress
@@ -76,25 +78,27 @@ struct Progress_visitor : CE::Default_visitor
   }
 };
 
-// What the computation finds.
+// A layout, with what goes with it, in maps of the mesh itself.
 struct Result
 {
+  Mesh& mesh;
   UV_map uv;
   Vertex_map<double> u, weight;
 
   explicit Result(Mesh& mesh)
-    : uv(mesh.add_property_map<Halfedge, Kernel::Point_2>("h:uv").first),
+    : mesh(mesh),
+      uv(mesh.add_property_map<Halfedge, Kernel::Point_2>("h:uv").first),
       u(mesh.add_property_map<Vertex, double>("v:u", 0.).first),
       weight(mesh.add_property_map<Vertex, double>("v:weight", 1.).first)
   {}
 };
 
 template <typename SolverTraits>
-Report flatten_with(const SolverTraits& solver, const Options& options, const Mesh& mesh,
-                    const Conditions& conditions, Result& result, Progress& progress)
+Report flatten_with(const SolverTraits& solver, const Options& options, const Conditions& conditions,
+                    Result& result, Refinement& refinement, Progress& progress)
 {
   Progress_visitor visitor(progress);
-  return CE::flatten(mesh, result.uv,
+  return CE::flatten(result.mesh, result.uv,
     CGAL::parameters::border_angle_map(conditions.border_angle)
                      .cone_angle_map(conditions.cone_angle)
                      .vertex_is_constrained_map(conditions.is_constrained)
@@ -104,6 +108,7 @@ Report flatten_with(const SolverTraits& solver, const Options& options, const Me
                      .gradient_tolerance(options.tolerance)
                      .number_of_iterations(options.maximum_number_of_iterations)
                      .retriangulation(options.retriangulation)
+                     .common_refinement(std::ref(refinement))
                      .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL)
                      .sparse_linear_solver(solver)
                      .visitor(std::ref(visitor)));
@@ -131,12 +136,11 @@ inline void check_solver(const std::string& name)
   throw Usage_error(text("unknown solver '", name, "'; this program has: ", known));
 }
 
-inline Report flatten(const Options& options, const Mesh& mesh, const Conditions& conditions,
-                      Result& result, Progress& progress)
+inline Report flatten(const Options& options, const Conditions& conditions, Result& result, Refinement& refinement, Progress& progress)
 {
   if(options.solver == "simplicial" && ! std::is_same<CE::Default_solver_traits, CE::Simplicial_solver_traits>::value)
-    return flatten_with(CE::Simplicial_solver_traits(), options, mesh, conditions, result, progress);
-  return flatten_with(CE::Default_solver_traits(), options, mesh, conditions, result, progress);
+    return flatten_with(CE::Simplicial_solver_traits(), options, conditions, result, refinement, progress);
+  return flatten_with(CE::Default_solver_traits(), options, conditions, result, refinement, progress);
 }
 
 } // namespace flattening

@@ -13,6 +13,7 @@
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
 #include <CGAL/Conformal_equivalence/internal/corner_values.h>
+#include <CGAL/Conformal_equivalence/internal/Lobachevsky.h>
 #include <CGAL/Conformal_equivalence/internal/PNG.h>
 #include <CGAL/Conformal_equivalence/internal/Text_buffer.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -24,7 +25,10 @@
 #include <array>
 #include <cstddef>
 #include <fstream>
+#include <iomanip>
+#include <locale>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <type_traits>
 
@@ -47,6 +51,21 @@ void write_obj_vertices(Text_buffer& out, const TriangleMesh& tm, const VertexPo
   }
 }
 
+// A number, with as many digits as it takes to read it back.
+template <typename Number>
+void write_obj_number(Text_buffer& out, const Number& x)
+{
+  if constexpr(std::is_arithmetic<Number>::value)
+    out << x;
+  else
+  {
+    std::ostringstream digits;
+    digits.imbue(std::locale::classic());
+    digits << std::setprecision(2 + static_cast<int>(precision_in_bits(x) * .30103)) << x;
+    out << digits.str();
+  }
+}
+
 // Affine texture coordinates, or homogeneous ones where `weights` is a map.
 template <typename TriangleMesh, typename HalfedgeUVMap, typename WeightMap, typename HalfedgeNumberMap>
 void write_obj_texture_coordinates(Text_buffer& out, const TriangleMesh& tm, const HalfedgeUVMap& uv,
@@ -54,14 +73,23 @@ void write_obj_texture_coordinates(Text_buffer& out, const TriangleMesh& tm, con
 {
   for(auto h : number_corner_values(tm, uv, number))
   {
-    const std::array<double, 2> p = corner_value(uv, h);
+    const auto p = corner_value(uv, h);
+    typedef std::decay_t<decltype(p[0])> Number;
+    const auto write = [&](char before, const Number& x) { write_obj_number(out << before, x); };
+    out << "vt";
     if constexpr(std::is_same<WeightMap, internal_np::Param_not_found>::value)
-      out << "vt " << p[0] << ' ' << p[1] << '\n';
+    {
+      write(' ', p[0]);
+      write(' ', p[1]);
+    }
     else
     {
-      const double w = CGAL::to_double(get(weights, target(h, tm)));
-      out << "vt " << p[0] * w << ' ' << p[1] * w << ' ' << w << '\n';
+      const Number w(CGAL::to_double(get(weights, target(h, tm))));
+      write(' ', p[0] * w);
+      write(' ', p[1] * w);
+      write(' ', w);
     }
+    out << '\n';
   }
 }
 
@@ -101,7 +129,8 @@ The vertices come in the order of `vertices(tm)`, isolated ones included, the fa
 of `faces(tm)`. Each distinct value among the corners of a vertex becomes one line `vt`, so
 that a vertex inside the layout has one and a vertex on a seam has several. Numbers
 are written with as many digits (at most 17) as it takes to read the same `double` back,
-whatever the settings of the stream.
+whatever the settings of the stream; texture coordinates of a type with more digits (`long double`, or a
+floating-point number of Boost.Multiprecision) with as many as it takes for that type.
 
 \tparam TriangleMesh a model of `FaceListGraph`
 \tparam HalfedgeUVMap a model of `ReadablePropertyMap` with

@@ -8,21 +8,42 @@
 #include <CGAL/number_utils.h>
 
 #include <boost/graph/graph_traits.hpp>
+#include <boost/multiprecision/number.hpp>
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// The numbers in which coordinates of type FT are read and written: `double`, unless FT is a floating-point number with more digits.
+template <typename FT>
+struct Corner_number
+{
+  static constexpr bool is_wide = std::is_same<FT, long double>::value
+    || (boost::multiprecision::is_number<FT>::value
+        && int(boost::multiprecision::number_category<FT>::value) == int(boost::multiprecision::number_kind_floating_point));
+  typedef std::conditional_t<is_wide, FT, double> type;
+
+  static type from(const FT& x)
+  {
+    if constexpr(is_wide)
+      return x;
+    else
+      return CGAL::to_double(x);
+  }
+};
+
 // A point of the layout, as numbers.
 template <typename HalfedgeUVMap, typename Halfedge>
-std::array<double, 2> corner_value(const HalfedgeUVMap& uv, Halfedge h)
+auto corner_value(const HalfedgeUVMap& uv, Halfedge h)
 {
   const auto& p = get(uv, h);
-  return {{ CGAL::to_double(p.x()), CGAL::to_double(p.y()) }};
+  typedef Corner_number<std::decay_t<decltype(p.x())> > Number;
+  return std::array<typename Number::type, 2>{{ Number::from(p.x()), Number::from(p.y()) }};
 }
 
 // Numbers the distinct values of `uv` at the corners of each vertex, vertex by
@@ -45,7 +66,7 @@ number_corner_values(const TriangleMesh& tm, const HalfedgeUVMap& uv, HalfedgeNu
     {
       if(is_border(h, tm))
         continue;
-      const std::array<double, 2> value = corner_value(uv, h);
+      const auto value = corner_value(uv, h);
       std::size_t i = first;
       while(i < representatives.size() && corner_value(uv, representatives[i]) != value)
         ++i;

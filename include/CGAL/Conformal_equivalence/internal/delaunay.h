@@ -120,6 +120,29 @@ struct To_double_double
 typedef boost::multiprecision::number<boost::multiprecision::cpp_bin_float<1024, boost::multiprecision::digit_base_2>,
                                       boost::multiprecision::et_off> Precise_number;
 
+template <typename NT>
+NT square_root(const NT& x)
+{
+  using std::sqrt;
+  return sqrt(x);
+}
+
+// By Newton's method, as Boost's own square root takes 50 times as long. The relative error is far below the 1e-300 that all
+// bounds of errors in this type count as rounding.
+inline Precise_number square_root(const Precise_number& x)
+{
+  if(!(x > 0))
+    return Precise_number(0);
+  int exponent = 0;
+  (void) frexp(x, &exponent);
+  exponent -= exponent % 2;
+  const Precise_number z = ldexp(x, -exponent);                    // in [1/4, 2)
+  Precise_number y = 1 / std::sqrt(static_cast<double>(z));        // of z^{-1/2}
+  for(int digits = 50; digits < 1024; digits *= 2)
+    y += y * (1 - z * y * y) / 2;
+  return ldexp(Precise_number(z * y), exponent / 2);
+}
+
 struct To_precise
 {
   Precise_number operator()(const Double_double& x) const { return Precise_number(x.hi) + Precise_number(x.lo); }
@@ -341,8 +364,7 @@ public:
     const Wide e(lengths[0]), a(lengths[1]), b(lengths[2]), c(lengths[3]), d(lengths[4]);
     const Wide x = ((b - a) * (b + a) - (c - d) * (c + d)) / (2 * e), y = height(e, a, b), z = height(e, c, d);
     using std::ldexp;
-    using std::sqrt;
-    const Wide f = sqrt(Wide(x * x + (y + z) * (y + z)));
+    const Wide f = square_root(Wide(x * x + (y + z) * (y + z)));
     const To_double value;
     for(std::size_t n = 0; n < 5; ++n)
       l_[n] = value(lengths[n]);
@@ -387,8 +409,16 @@ private:
 
   static Wide height(const Wide& e, const Wide& a, const Wide& b)
   {
-    const Incircle_form<Wide> t(e, a, b); // degenerate, or slightly beyond: r = 0
-    return 2 * t.r * t.s / e;
+    if constexpr(std::is_same<Wide, Precise_number>::value)
+    {
+      const Wide x = excess(e, a, b), y = excess(a, b, e), z = excess(b, e, a);
+      return x > 0 && y > 0 && z > 0 ? Wide(square_root(Wide((e + a + b) * x * y * z)) / (2 * e)) : Wide(0);
+    }
+    else
+    {
+      const Incircle_form<Wide> t(e, a, b); // degenerate, or slightly beyond: r = 0
+      return 2 * t.r * t.s / e;
+    }
   }
 
   // of triangle 0, (e, a, b), or 1, (e, c, d), from 16 area^2 = 4 e^2 b^2 - (e^2 + b^2 - a^2)^2, whose derivative by the
@@ -418,6 +448,25 @@ template <typename NT>
 NT euclidean_length(const Intrinsic_triangulation<NT>& t, std::uint32_t e)
 {
   return Euclidean_diagonal<NT>(quad_lengths(t, quad_edges(t, e))).length();
+}
+
+// Lengths computed from coordinates are rounded: by less than 3.5 * 2^-53 for the square root of a sum of squares of differences, so that
+// those of a degenerate triangle can violate its inequality by 7 * 2^-53 of the longest.
+
+/// whether `a`, `b`, `c` are the lengths of a triangle, possibly a degenerate one, up to their rounding: no one is longer
+/// than the other two together by more than 4 epsilon (8 * 2^-53) of itself. Decided exactly
+template <typename NT>
+bool is_triangle_up_to_rounding(const NT& a, const NT& b, const NT& c)
+{
+  const auto holds = [](const NT& x, const NT& y, const NT& longest)
+  {
+    if(triangle_inequality_sign(x, y, longest) != NEGATIVE)
+      return true;
+    const Exact_rational tolerated = exact_rational(NT(4 * (std::numeric_limits<NT>::epsilon)())),
+                         rest(exact_rational(x) + exact_rational(y) - exact_rational(longest));
+    return CGAL::sign(Exact_rational(rest + tolerated * exact_rational(longest))) != NEGATIVE;
+  };
+  return holds(a, b, c) && holds(b, c, a) && holds(c, a, b);
 }
 
 // ---- what became of the lengths -------------------------------------------------------------------------------------

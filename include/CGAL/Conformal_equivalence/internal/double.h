@@ -12,6 +12,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/normal_coordinates.h>
 
 #include <cstdint>
 #include <utility>
@@ -93,6 +94,29 @@ public:
     for(Index h = 0; h < number_of_halfedges_; ++h)
       if(t.is_border(h) || given[t.edge(h)])
         result.is_cut[triangulation.edge(h)] = result.is_cut[triangulation.edge(image(h))] = 1;
+    return result;
+  }
+
+  // The border edges of the surface that are no edges of the double any more, after these flips: the border has lost their lengths.
+  // (All of them, should the crossings of both triangulations be too many to be counted.)
+  std::vector<Index> lost_border_edges(const Intrinsic_triangulation<NT>& t, const std::vector<Index>& flips) const
+  {
+    Intrinsic_triangulation<NT> current = triangulation;
+    Normal_coordinates record(current);
+    for(Index e : flips)
+    {
+      record.flip(current, e);
+      current.flip_edge(e, NT(1));
+    }
+    std::vector<char> is_kept(current.number_of_edges(), 0);
+    if(!record.has_overflowed())
+      for(Index e = 0; e < current.number_of_edges(); ++e)
+        if(record.coincides(e))
+          is_kept[triangulation.edge(record.input_halfedge(current, current.edge_halfedge(e)))] = 1;
+    std::vector<Index> result;
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      if(t.is_border_edge(e) && !is_kept[triangulation.edge(t.edge_halfedge(e))])
+        result.push_back(e);
     return result;
   }
 };

@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -55,6 +56,7 @@ class Conformal_energy
 public:
   typedef Intrinsic_triangulation<Length> Triangulation;
   typedef typename Triangulation::Index Index;
+  static constexpr bool has_flips = false;
 
   // Keeps a reference to `t` and its lengths converted to NT. If `normalize`, they are
   // multiplied by a power of two that brings them near 1.
@@ -95,6 +97,27 @@ public:
   const std::vector<NT>& angle_sums() const { return angle_sum_; }  // Theta~, by vertex
   const std::vector<NT>& weights() const { return weight_; }        // w, by edge
   const std::vector<Index>& broken_faces() const { return broken_; }
+
+  // The angle sum at v on the triangulation and with the factors of now, and how fast it falls as u grows there.
+  std::pair<NT, NT> angle_sum_at(Index v) const
+  {
+    Angle_sum<NT> sum;
+    NT slope(0);
+    t_.for_each_outgoing(v, [&](Index h)
+    {
+      const std::array<NT, 3> l = {{scaled_length(h), scaled_length(t_.next(h)), scaled_length(t_.previous(h))}};
+      const Incircle_form<NT> triangle(l[0], l[1], l[2]);
+      if(triangle.is_triangle && triangle.r > 0)
+      {
+        const NT unit = 1 / triangle.s;
+        sum.add(triangle.tangent[1] * unit, triangle.r * unit);
+        slope += (t_.target(h) == v ? NT(0) : cotangent(triangle, 0)) + (t_.apex(h) == v ? NT(0) : cotangent(triangle, 2));
+      }
+      else if(longest_side(l[0], l[1], l[2]) == 1)
+        sum.add_straight();
+    });
+    return std::make_pair(sum.radians(), NT(slope / 2));
+  }
 
   // How far rounding alone may move the angle sums, in units of epsilon, by vertex: a
   // corner's angle moves by (cot + cot of the two others) times the relative change of
@@ -161,6 +184,10 @@ public:
     }
     return result;
   }
+
+protected:
+  // Nothing but the factor: the next evaluation finds the rest.
+  void set_scale(Index v, const NT& scale) { scale_[v] = scale; }
 
 private:
   // of the middle between shortest and longest length, logarithmically

@@ -21,6 +21,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,25 +49,27 @@ inline double negligible_angle_defect() { return 1e-9; }
 template <typename NT>
 struct Total_angle
 {
+  typedef typename Wider_number<NT>::type Wide;
   std::int64_t units = 0;      // of pi / 2520
-  Double_double rest = 0;      // radians
+  Wide rest = Wide(0);         // radians
 
   void add(const Exact_angle<NT>& angle)
   {
     units += angle.units;
-    rest += Double_double(static_cast<double>(angle.rest));
+    rest += Wide(angle.rest);
   }
   void subtract(const Exact_angle<NT>& angle)
   {
     units -= angle.units;
-    rest -= Double_double(static_cast<double>(angle.rest));
+    rest -= Wide(angle.rest);
   }
-  double radians() const
+  Wide wide_radians() const
   {
-    const Double_double unit = Number_constants<Double_double>::pi() / int(Exact_angle<NT>::units_of_pi);
-    return to_double(unit * units + rest);
+    const Wide unit = Number_constants<Wide>::pi() / int(Exact_angle<NT>::units_of_pi);
+    return unit * Wide(units) + rest;
   }
-  bool is_zero() const { return units == 0 && rest == Double_double(0); }
+  double radians() const { return static_cast<double>(wide_radians()); }
+  bool is_zero() const { return units == 0 && rest == Wide(0); }
 };
 
 // The total angle of one component that the prescribed angles do not use up.
@@ -219,9 +222,9 @@ Feasibility exhausted(const Angle_balance<NT>& balance)
 
 // Adds `left` to the targets of `vertices`, evenly; what rounding takes from one is added to the next ones.
 template <typename NT>
-void spread(double left, const std::vector<std::uint32_t>& vertices, Conformal_conditions<NT>& conditions)
+void spread(const NT& left, const std::vector<std::uint32_t>& vertices, Conformal_conditions<NT>& conditions)
 {
-  NT rest_left = NT(left);
+  NT rest_left = left;
   for(std::size_t i = 0; i < vertices.size(); ++i)
   {
     Exact_angle<NT> angle = conditions.angle_sum(vertices[i]);
@@ -264,7 +267,7 @@ Feasibility make_feasible(const Intrinsic_triangulation<NT>& t, const Surface_co
     const bool is_negligible = std::abs(left) <= negligible_angle_defect() && !balance.inexact.empty();
     if(is_negligible)
     {
-      spread(left, balance.inexact, conditions);
+      spread(static_cast<NT>(balance.left.wide_radians()), balance.inexact, conditions);
       result.angle_defect_spread += std::abs(left);
     }
     else if(!balance.bounded.empty() && left < 0)

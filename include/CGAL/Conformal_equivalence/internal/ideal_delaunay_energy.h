@@ -14,9 +14,12 @@
 #include <CGAL/Conformal_equivalence/internal/delaunay.h>
 #include <CGAL/Conformal_equivalence/internal/energy.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -34,6 +37,7 @@ class Ideal_delaunay_energy : public Conformal_energy<double, Length>
 public:
   typedef typename Base::Triangulation Triangulation;
   typedef typename Base::Index Index;
+  static constexpr bool has_flips = true;
 
   // Keeps references to `t`, which it flips and which nobody else may change, and to the observer.
   Ideal_delaunay_energy(Triangulation& t, Observer& observer)
@@ -55,14 +59,81 @@ public:
     return is_finite;
   }
 
+  // Moves u at v alone, from x, until the angle sum there is `target` up to some 0.01 radians, or by as much as `most`: E
+  // goes down. Returns the new u. What is known of other vertices is out of date until the next evaluation.
+  double relax(Index v, double target, double x, double most)
+  {
+    const double close = 0.01;
+    Probe here = probe(v, target, x), there = here;
+    const double direction = here.residual > 0 ? 1 : -1, last = x + direction * most;
+    double step = 0;
+    for(bool is_bracketed = false; !is_bracketed; ) // `here` stays on this side of the zero, `there` comes to lie beyond
+    {
+      if(std::abs(here.residual) <= close || here.u == last)
+        return here.u;
+      step = (std::max)({1e-15, 4 * step, std::abs(here.residual) / (std::max)(here.slope, 1e-3)});
+      there = probe(v, target, std::abs(last - here.u) > step ? here.u + direction * step : last);
+      is_bracketed = there.residual * direction <= 0;
+      if(!is_bracketed)
+        here = there;
+    }
+    for(int i = 0; i < 80 && std::abs(there.residual) > close; ++i) // false position, and bisection
+    {
+      const double part = i % 3 == 2 ? 0.5 : here.residual / (here.residual - there.residual);
+      const Probe between = probe(v, target, here.u + (part > 0.05 && part < 0.95 ? part : 0.5) * (there.u - here.u));
+      if(between.u == here.u || between.u == there.u)
+        break;
+      (between.residual * direction > 0 ? here : there) = between;
+      if(std::abs(here.residual) <= close)
+        return here.u;
+    }
+    x = std::abs(there.residual) <= close ? there.u : here.u;
+    probe(v, target, x);
+    return x;
+  }
+
+  // Flips what is not Delaunay at the factors s, whichever number type they have, beyond the errors of the lengths. At a
+  // solution these are edges that rounding has hidden. Returns whether there were any.
+  template <typename Scale>
+  bool make_delaunay(const std::vector<Scale>& s, const std::vector<double>& u)
+  {
+    std::vector<Index> all(t_.number_of_edges());
+    std::iota(all.begin(), all.end(), Index(0));
+    if(!flip(s, std::move(all)))
+      return false;
+    Base::evaluate(u);
+    return true;
+  }
+
 private:
+  // u at one vertex, and what the angle sum there is then
+  struct Probe
+  {
+    double u, residual, slope;
+  };
+
+  Probe probe(Index v, double target, double u)
+  {
+    this->set_scale(v, std::exp(u / 2));
+    std::vector<Index> candidates;
+    t_.for_each_outgoing(v, [&](Index h)
+    {
+      for(Index e : {t_.edge(h), t_.edge(t_.next(h))})
+        if(t_.is_flippable(e))
+          candidates.push_back(e);
+    });
+    flip(this->scales(), std::move(candidates));
+    const std::pair<double, double> sum = this->angle_sum_at(v);
+    return {u, sum.first - target, sum.second};
+  }
+
   bool flip_at(const std::vector<double>& u)
   {
     bool is_finite = Base::evaluate(u);
     for(int round = 0; is_finite && round < 100; ++round)
     {
       std::vector<Index> candidates = suspects();
-      if(candidates.empty() || !flip(std::move(candidates)))
+      if(candidates.empty() || !flip(this->scales(), std::move(candidates)))
         break;
       is_finite = Base::evaluate(u);
     }
@@ -84,10 +155,11 @@ private:
   }
 
   // Returns whether anything was flipped.
-  bool flip(std::vector<Index> candidates)
+  template <typename Scale>
+  bool flip(const std::vector<Scale>& s, std::vector<Index> candidates)
   {
     std::vector<Index> flipped;
-    flipper_->flip_to_delaunay(this->scales(), std::move(candidates), Flip_rule::PTOLEMY, [&](Index e)
+    flipper_->flip_to_delaunay(s, std::move(candidates), Flip_rule::PTOLEMY, [&](Index e)
     {
       observer_.before_flip(t_, e);
       flipped.push_back(e);

@@ -29,6 +29,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -40,7 +41,7 @@ struct Newton_options
   double tolerance = 1e-12;
   std::size_t number_of_iterations = 100;
   Newton_strategy strategy = Newton_strategy::LINE_SEARCH;
-  bool is_careful = false; // where edges are flipped on the way: steps are bounded, and residuals do not grow
+  bool is_careful = false; // where edges are flipped on the way: steps are bounded, and outliers are relaxed
 };
 
 // The bounds u >= b. In what rests on its bounds, nothing else keeps u from going down to minus infinity,
@@ -114,7 +115,7 @@ public:
       record(iteration, size);
       if(size <= (std::max)(options_.tolerance, rounding_floor()))
         return Status::OK;
-      if(is_careful() && is_stuck_at_floor(iteration, size))
+      if(is_careful() && is_stuck_at_floor(iteration, size, u))
         return Status::OK;
       if(!visitor_.go_further())
         return Status::STOPPED_BY_VISITOR;
@@ -136,15 +137,18 @@ private:
   // (where bounds are active, residuals may grow on the way)
   bool is_careful() const { return options_.is_careful && bounds_.empty(); }
 
-  // Near the rounding floor, and without gain for a while: what is left to do is up to the wider type.
-  bool is_stuck_at_floor(std::size_t iteration, double size)
+  // Near the rounding floor, however high that is, and without gain for a while: what is left to do is up to the wider type.
+  bool is_stuck_at_floor(std::size_t iteration, double size, const Vertex_vector& u)
   {
     if(size <= least_ / 2)
     {
       least_ = size;
       last_gain_ = iteration;
     }
-    return iteration >= last_gain_ + 5 && size <= 10 * rounding_floor();
+    if(iteration < last_gain_ + 5 || size > 1)
+      return false;
+    statistics_.residual_floor = floor_ = measured_floor();
+    return size <= (std::max)(10., 4 * largest_entry(u)) * floor_; // (u itself is rounded)
   }
 
   // r at u; false if u is out of the range of double.
@@ -216,14 +220,19 @@ private:
   // hardly changes any more, when the residual has become small.
   double rounding_floor()
   {
-    if(floor_ > 0 || statistics_.residual > 1e-4)
-      return floor_;
+    if(floor_ == 0 && statistics_.residual <= 1e-4)
+      floor_ = measured_floor();
+    return floor_;
+  }
+
+  double measured_floor() const
+  {
     double largest = 0;
     const std::vector<double> sensitivity = energy_.sensitivities();
     for(std::size_t v = 0; v < sensitivity.size(); ++v)
       if(solver_.graph().is_free(std::uint32_t(v)))
         largest = (std::max)(largest, sensitivity[v]);
-    return floor_ = 4 * std::numeric_limits<double>::epsilon() * largest;
+    return 4 * std::numeric_limits<double>::epsilon() * largest;
   }
 
   void record(std::size_t iteration, double size)
@@ -349,7 +358,16 @@ private:
       trial[v] = active_[v] && t == 1 ? bounds_.bound[v] : (std::max)(trial[v], bounds_.bound[v]);
   }
 
-  // Goes along d as far as the derivative of E has not become more than half as
+  // How steeply E may rise at the end of a step, relative to its fall at the start. Where nothing was gained for a while, not
+  // at all: then E, which is convex, is lower than at the start for certain.
+  double tolerable_rise() const
+  {
+    if(!is_careful())
+      return 0.5;
+    return statistics_.residuals.size() > last_gain_ + 10 && statistics_.residual > 0.1 ? 0 : 0.1;
+  }
+
+  // Goes along d as far as the derivative of E has not become so much as half as
   // large upwards as it was downwards at the start. Where triangles are broken the
   // Hessian may be singular, and d useless; from then on, until no triangle
   // is broken any more, a trust region tells how far to go.
@@ -365,15 +383,19 @@ private:
     const double slope = dot(residual_, d);
     Vertex_vector trial(u.size()), r;
     // far away, triangulations are flipped in vain
-    const double longest = is_careful() ? 5 : std::numeric_limits<double>::infinity(); // in u
-    for(double t = (std::min)(1., longest / largest_entry(d)); t > 1e-6; )
+    const double longest = is_careful() ? reach_ : std::numeric_limits<double>::infinity(); // in u
+    const double first = (std::min)(1., longest / largest_entry(d));
+    for(double t = first; t > 1e-6 * first; )
     {
       step(u, t, d, trial);
       const bool is_finite = evaluate(trial, r);
-      const double slope_there = is_finite ? dot(r, d) : -std::numeric_limits<double>::infinity();
-      const bool is_near = !is_careful() || t < 0.02 || dot(r, r) <= dot(residual_, residual_);
-      if(slope_there >= -0.5 * slope && is_near)
+      double slope_there = is_finite ? dot(r, d) : -std::numeric_limits<double>::infinity();
+      if(is_finite && is_careful() && relax_outliers(t, trial, r))
+        slope_there = (dot(r, trial) - dot(r, u)) / t;
+      if(slope_there >= -tolerable_rise() * slope)
       {
+        // a hundredth of a step, without much effect: u is to go very far
+        reach_ = first > 0.01 || t < first || slope_there < 0.5 * slope ? least_reach : 2 * reach_;
         u.swap(trial);
         residual_.swap(r);
         return true;
@@ -383,6 +405,36 @@ private:
       t *= (std::min)(0.7, (std::max)(0.1, secant));
     }
     return begin_trust_region(u);
+  }
+
+  // Needles appear where u varies much. The angle at the end of a needle goes from 0 to pi while u changes by as little as its
+  // width divided by its length: there E is all but not differentiable, Newton's step is wrong but for a tiny part of it,
+  // and each of such vertices would stop the line search. Each of them is moved by itself, with flips, to the minimum of E
+  // along its u (nonlinear elimination, Cai and Keyes, 2002; here by a few rounds of Gauss and Seidel's).
+  // Returns whether any was moved; then `r` is the residual.
+  bool relax_outliers(double t, Vertex_vector& trial, Vertex_vector& r)
+  {
+    bool is_moved = false;
+    if constexpr(Energy::has_flips)
+    {
+      const int rounds = 2;
+      const double tolerable = 0.3, most = 2; // in radians; in u
+      for(int round = 0; round < rounds; ++round)
+      {
+        std::vector<std::pair<double, std::uint32_t> > outliers; // the largest first
+        for(std::uint32_t v = 0; v < r.size(); ++v)
+          if(std::abs(r[v]) > tolerable && std::abs(r[v] - (1 - t) * residual_[v]) > tolerable)
+            outliers.emplace_back(-std::abs(r[v]), v);
+        if(outliers.empty())
+          break;
+        std::sort(outliers.begin(), outliers.end());
+        for(const auto& outlier : outliers)
+          trial[outlier.second] = energy_.relax(outlier.second, target_[outlier.second], trial[outlier.second], most);
+        evaluate(trial, r);
+        is_moved = true;
+      }
+    }
+    return is_moved;
   }
 
   // The factor for the trust region is that of the first metric again: a Hessian at broken triangles makes a
@@ -525,6 +577,8 @@ private:
   double floor_ = 0;
   double least_ = std::numeric_limits<double>::infinity(); // residual, in steps of at least one half
   std::size_t last_gain_ = 0;                              // the iteration when it was found
+  static constexpr double least_reach = 5;
+  double reach_ = least_reach;        // of a step in u, where it is bounded
   double radius_ = 0, step_norm_ = 0; // of the trust region
   bool at_boundary_ = false;
   bool is_lost_ = false; // line search has failed among broken triangles

@@ -17,11 +17,16 @@ CGAL_add_named_parameter(conformal_u_t, conformal_u, log_scale_factor_map)
 CGAL_add_named_parameter(conformal_weight_t, conformal_weight, projective_weight_map)
 CGAL_add_named_parameter(conformal_scaled_length_t, conformal_scaled_length, scaled_edge_length_map)
 CGAL_add_named_parameter(conformal_report_t, conformal_report, flattening_report)
+CGAL_add_named_parameter(conformal_common_refinement_t, conformal_common_refinement, common_refinement)
+CGAL_add_named_parameter(conformal_input_face_t, conformal_input_face, input_face_map)
 
 // the solver
 CGAL_add_named_parameter(conformal_gradient_tolerance_t, conformal_gradient_tolerance, gradient_tolerance)
 CGAL_add_named_parameter(conformal_newton_strategy_t, conformal_newton_strategy, newton_strategy)
 CGAL_add_named_parameter(conformal_retriangulation_t, conformal_retriangulation, retriangulation)
+CGAL_add_named_parameter(conformal_border_edges_t, conformal_border_edges, border_edges)
+CGAL_add_named_parameter(conformal_number_of_changes_t, conformal_number_of_changes, maximum_number_of_changes)
+CGAL_add_named_parameter(conformal_mollification_t, conformal_mollification, mollification)
 
 // cutting and laying out
 CGAL_add_named_parameter(conformal_edge_is_seam_t, conformal_edge_is_seam, edge_is_seam_map)

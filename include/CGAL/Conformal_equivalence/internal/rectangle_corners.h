@@ -100,10 +100,13 @@ private:
     std::sort(candidates_.begin(), candidates_.end());
   }
 
+  // There are many maps to compare. What is not found soon, or not on this triangulation, is none of the best.
+  static auto quickly() { return parameters::retriangulation(Retriangulation::NEVER).number_of_iterations(30u); }
+
   // pi - angle sum at the border of the natural map; of the surface itself if there is no such map
   std::vector<double> natural_turning() const
   {
-    const Conformal_metric<double> metric = compute_conformal_metric(t_, Conformal_conditions<double>(t_));
+    const Conformal_metric<double> metric = compute_conformal_metric(t_, Conformal_conditions<double>(t_), quickly());
     const std::vector<double> sums = angle_sums(metric ? apply_log_scale_factors(t_, metric.log_scale_factors) : t_);
     std::vector<double> turning;
     for(Index v : border_)
@@ -200,7 +203,7 @@ private:
       conditions.prescribe_angle_sum(v, Exact_angle<double>::pi_times(1));
     for(Index a : c)
       conditions.prescribe_angle_sum(border_[candidates_[a]], Exact_angle<double>::pi_times(1, 2));
-    const Conformal_metric<double> metric = solver_.solve(conditions, parameters::gradient_tolerance(1e-8));
+    const Conformal_metric<double> metric = solver_.solve(conditions, quickly().gradient_tolerance(1e-8));
     return metric ? dirichlet_energy(t_, metric.log_scale_factors) : std::numeric_limits<double>::infinity();
   }
 
