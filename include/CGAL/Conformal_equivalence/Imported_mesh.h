@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/wedges.h>
+#include <CGAL/Conformal_equivalence/mollify.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/boost/graph/helpers.h>
@@ -396,6 +397,9 @@ void set_lengths(Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& n
                                                    get_const_property_map(vertex_point, mesh.mesh())));
   else
     set_lengths_from_map(mesh, get_parameter(np, internal_np::conformal_edge_length));
+  const double slack = choose_parameter(get_parameter(np, internal_np::conformal_mollification), 0.);
+  if(mesh.status == Status::OK && slack > 0)
+    mesh.triangulation = mollify(std::move(mesh.triangulation), slack).triangulation; // as it is if lengths are invalid
   if(mesh.status == Status::OK)
     check_lengths(mesh);
 }
@@ -423,6 +427,11 @@ void set_lengths(Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& n
 ///     \cgalParamDescription{the points of the vertices}
 ///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a three-dimensional point type}
 ///     \cgalParamDefault{`boost::get(CGAL::vertex_point, tm)`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{mollification}
+///     \cgalParamDescription{the slack of all triangle inequalities, relative to the mean length, that is reached by adding a constant to all lengths, see `mollify()`}
+///     \cgalParamType{`double`}
+///     \cgalParamDefault{`0`: lengths are taken as they are, and lengths of zero refused}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///

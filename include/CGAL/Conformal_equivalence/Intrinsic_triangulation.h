@@ -234,9 +234,86 @@ public:
   }
 
   /// @}
+  /// \name Splits
+  /// @{
+
+  /// splits the edge `e` by a new vertex m, the one with the number `number_of_vertices()` before, which is joined with the vertices
+  /// opposite to `e`. What is new gets the next numbers; with `h = edge_halfedge(e)`, `g = twin(h)`, and `F` and `E` faces and edges before:
+  ///
+  ///                 k                             k
+  ///               /   \                         / | \          h runs from i to m, on the left of it the triangle i, m, k; the edge im
+  ///             /       \                     /   |   \        keeps the number e. The face F is m, j, k, its first side
+  ///           / face(h)   \                 / f(h)|  F  \      from m to j. If g exists, it runs from j to m, on the left of it
+  ///         i ----- h ----> j             i --h-> m <-g-- j     the triangle j, m, l; the face F + 1 is m, i, l, its
+  ///           \ face(g)   /                 \ F+1 | f(g)/       first side from m to i. The edges mj, mk and ml
+  ///             \       /                     \   |   /         are E, E + 1 and E + 2.
+  ///               \   /                         \ | /
+  ///                 l                             l
+  ///
+  /// O(1), amortized.
+  /// \param e an edge
+  /// \param lengths those of im, mj, mk and ml; the last one does not count if `e` is a border edge
+  /// \return the new vertex
+  /// \pre `is_border_edge(e) || is_flippable(e)`
+  Index split_edge(Index e, const std::array<NT, 4>& lengths)
+  {
+    CGAL_precondition(is_border_edge(e) || is_flippable(e));
+    const Index h = halfedge_of_edge_[e], g = twin_[h];
+    const Index m = number_of_vertices(), first_edge = number_of_edges();
+    halfedge_of_vertex_.push_back(null_index);
+    halfedge_of_edge_.push_back(null_index);
+    length_[e] = lengths[0];
+    length_.push_back(lengths[1]);
+    const Index beyond = split_face(h, m, lengths[2]); // from m to j
+    halfedge_of_vertex_[m] = beyond;
+    if(g == null_index)
+      glue(beyond, null_index, first_edge);
+    else
+    {
+      const Index back = split_face(g, m, lengths[3]); // from m to i
+      glue(h, back, e);
+      glue(beyond, g, first_edge);
+    }
+    return m;
+  }
+
+  /// @}
 
 private:
   template <typename> friend class Intrinsic_triangulation;
+
+  // Cuts the face of `h` in two, from the vertex `m` on `h` to the apex, by a new edge: `h` ends at `m`, and the new face, which is returned
+  // by its first halfedge, is m, old target of `h`, apex. That halfedge is glued to nothing yet.
+  Index split_face(Index h, Index m, const NT& length)
+  {
+    const Index x = next(h), first = number_of_halfedges(), y = first + 1, e = number_of_edges();
+    const Index j = origin_[x], k = apex(h);
+    for(const Index v : {m, j, k})
+      origin_.push_back(v);
+    twin_.insert(twin_.end(), {null_index, twin_[x], x});
+    edge_.insert(edge_.end(), {null_index, edge_[x], e});
+    glue(y, twin_[x], edge_[x]); // in the place of x
+    if(halfedge_of_vertex_[j] == x)
+      halfedge_of_vertex_[j] = y;
+    origin_[x] = m;
+    halfedge_of_edge_.push_back(x);
+    length_.push_back(length);
+    glue(x, y + 1, e);
+    return first;
+  }
+
+  // Makes `h` and `g` the sides of the edge `e`; `g` may be `null_index`.
+  void glue(Index h, Index g, Index e)
+  {
+    twin_[h] = g;
+    edge_[h] = e;
+    if(g != null_index)
+    {
+      twin_[g] = h;
+      edge_[g] = e;
+    }
+    halfedge_of_edge_[e] = (std::min)(h, g);
+  }
 
   void number_edges()
   {

@@ -179,6 +179,8 @@ struct Statistics
   {
     double import = 0;  ///< from the mesh to arrays
     double solve = 0;   ///< conditions, Newton's method, verdict on the metric
+    double discarded = 0; ///< part of `solve`: before flips of edges, or the double, were found to be needed
+    double flips = 0;   ///< part of `solve`, after that: finding and flipping edges, and evaluating the gradient again after flips
     double cut = 0;     ///< cutting
     double layout = 0;  ///< laying out
     double verify = 0;  ///< orientations of the triangles
@@ -369,6 +371,14 @@ enum class Retriangulation
   NEVER,       ///< the fixed triangulation of the paper; the minimizer may be no metric
   WHEN_NEEDED, ///< the fixed triangulation first, Ptolemy flips only if it has no solution
   ALWAYS       ///< intrinsic Delaunay triangulation first: the result depends on the surface alone
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// Whether edges of the border may be flipped, too, where the triangulation may be changed.
+enum class Border_edges
+{
+  KEPT,     ///< no: all of them keep the length e^{(u_i + u_j) / 2} l; where that leaves triangles at the border broken, there is no metric
+  FLIPPABLE ///< only where there is no metric with all border edges kept: then on the double of the surface. The border consists of straight lines then, too
 };
 
 /// \ingroup PkgConformalEquivalenceEnums

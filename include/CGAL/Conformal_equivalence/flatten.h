@@ -573,6 +573,7 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
 ///   \cgalParamNBegin{edge_length_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
+///   \cgalParamNBegin{mollification} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
 ///   \cgalParamNBegin{face_patch_map}
 ///     \cgalParamDescription{the patches of the faces}
 ///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%face_descriptor` and any value type with `==`}
