@@ -15,7 +15,10 @@
 #include <CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -891,7 +894,8 @@ BOOST_AUTO_TEST_CASE(wrong_usage)
   check_refused({"a.off", "--max-iterations", "-1"}, 2, "--max-iterations");
   check_refused({"a.off", "--threads", "0"}, 2, "--threads");
   check_refused({"a.off", "--solver", "abacus"}, 2, "simplicial");
-  check_refused({"a.off", "--precision", "quadruple"}, 2, "--precision");
+  for(const char* precision : { "quadruple", "", "1", "-200", "1e2", "4097" })
+    check_refused({"a.off", "--precision", precision}, 2, "--precision takes");
   check_refused({"a.off", "--cones", ""}, 2, "--cones needs the name of a file");
   check_refused({"a.off", "--cones", "auto"}, 2, "a file of this name: ./auto");
   check_refused({"a.off", "--cones", "e", "--cones", "f"}, 2, "--cones");
@@ -960,12 +964,148 @@ BOOST_AUTO_TEST_CASE(retriangulation)
   }
 }
 
+// Lengths and coordinates with many digits, from the file.
+BOOST_AUTO_TEST_CASE(many_digits)
+{
+  typedef boost::multiprecision::cpp_bin_float_100 Real;
+  const Folder folder;
+  const Soup soup = bumpy_grid(6);
+  const std::string input = folder.write("bumpy.off", as_off(soup)), obj = folder / "o.obj", report_file = folder / "o.json";
+  for(const int bits : { 53, 200 })
+  {
+    const Run r = run({input, "-o", obj, "--retriangulate", "never", "--precision", std::to_string(bits)
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+                      , "--report", report_file
+#endif
+                      });
+    BOOST_TEST_REQUIRE(r.status == 0, r.err);
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    const nlohmann::json report = json(report_file);
+    BOOST_TEST(report["precision_bits"] == bits);
+    BOOST_TEST(report["residual"].get<double>() <= (bits == 53 ? 1e-12 : 1e-57));
+    BOOST_TEST(report["residual"].get<double>() > 0);
+    BOOST_TEST(report["triangles_lost_in_double"] == 0);
+#endif
+
+    // the border keeps its lengths
+    std::vector<std::array<Real, 2> > texture;
+    std::map<std::pair<std::size_t, std::size_t>, std::pair<std::size_t, std::size_t> > sides; // by vertices: places in `texture`
+    std::istringstream in(content(obj));
+    for(std::string line; std::getline(in, line); )
+    {
+      std::istringstream words(line);
+      std::string kind;
+      words >> kind;
+      if(kind == "vt")
+      {
+        std::string x, y;
+        words >> x >> y;
+        BOOST_TEST((x.size() > 45) == (bits == 200));
+        texture.push_back({{Real(x), Real(y)}});
+      }
+      if(kind == "f")
+      {
+        std::array<std::size_t, 3> v, t;
+        char slash;
+        for(std::size_t k = 0; k < 3; ++k)
+          words >> v[k] >> slash >> t[k];
+        for(std::size_t k = 0; k < 3; ++k)
+          sides[{v[k] - 1, v[(k + 1) % 3] - 1}] = {t[k] - 1, t[(k + 1) % 3] - 1};
+      }
+    }
+    Real worst = 0;
+    std::size_t number_of_sides = 0;
+    for(const auto& side : sides)
+    {
+      const std::size_t i = side.first.first, j = side.first.second;
+      if(sides.count({j, i}) != 0)
+        continue;
+      ++number_of_sides;
+      Real in_space = 0, in_plane = 0;
+      for(std::size_t k = 0; k < 3; ++k)
+        in_space += (Real(soup.points[i][k]) - soup.points[j][k]) * (Real(soup.points[i][k]) - soup.points[j][k]);
+      const auto &p = texture[side.second.first], &q = texture[side.second.second];
+      for(std::size_t k = 0; k < 2; ++k)
+        in_plane += (p[k] - q[k]) * (p[k] - q[k]);
+      worst = (std::max)(worst, Real(abs(Real(in_plane / in_space - 1))));
+    }
+    BOOST_TEST(number_of_sides == 24u);
+    BOOST_TEST(worst <= (bits == 53 ? 1e-14 : 1e-57));
+    BOOST_TEST(worst > (bits == 53 ? 1e-18 : 1e-75)); // of what rounding leaves
+  }
+
+  // A tube with one end closed: triangles at its ends differ by a factor of e^150.
+  testing::Soup rod = testing::tube(300, 8, false, [](testing::Index i, testing::Index j)
+  {
+    const double x = 2 * testing::pi * (j + .25 * (i % 2)) / 8;
+    return testing::Point{{std::cos(x), std::sin(x), .5 * i}};
+  });
+  rod.points.push_back({{0, 0, -.5}});
+  for(testing::Index j = 0; j < 8; ++j)
+    rod.triangles.push_back({{testing::Index(rod.points.size() - 1), j, (j + 1) % 8}});
+  const std::string long_input = write_off(folder, "rod.off", rod);
+  check_refused({long_input, "--precision", "100"}, 1, "not injective");
+  const Run r = run({long_input, "--precision", "400"});
+  BOOST_TEST_REQUIRE(r.status == 0, r.err);
+  BOOST_TEST(contains(r.out, "triangles too small"));
+  BOOST_TEST(contains(r.out, "undecided")); // for double
+}
+
+// Instead of flips on the way: edges of a copy of the mesh are flipped or split, and the copy is written.
+BOOST_AUTO_TEST_CASE(local_repair, * testing::needs_mesh("blob.off"))
+{
+  const Folder folder;
+  const std::string input = testing::mesh_path("blob.off"), obj = folder / "o.obj", report_file = folder / "o.json";
+  const Run r = run({input, "-o", obj, "--local-repair"
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+                    , "--report", report_file
+#endif
+                    });
+  BOOST_TEST_REQUIRE(r.status == 0, r.err);
+  BOOST_TEST(contains(r.out, "repaired mesh"));
+  const checking::Surface given = checking::read_surface(input), repaired = checking::read_surface(obj);
+  BOOST_TEST_REQUIRE(repaired.points.size() > given.points.size());
+  for(std::size_t v = 0; v < given.points.size(); ++v)
+    BOOST_TEST((repaired.points[v] == given.points[v]));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const nlohmann::json report = json(report_file);
+  BOOST_TEST(report["retriangulation"]["mode"] == "local repair");
+  BOOST_TEST(report["local_repair"]["vertices"] == repaired.points.size());
+  BOOST_TEST(report["local_repair"]["splits"] == repaired.points.size() - given.points.size());
+  BOOST_TEST(report["flipped_triangles"] == 0);
+  BOOST_TEST(report["refinement"].is_null());
+#endif
+  check_refused({input, "--local-repair", "--retriangulate", "always"}, 2, "exclude each other");
+  check_refused({input, "--local-repair", "--precision", "200"}, 2, "--local-repair");
+}
+
+BOOST_AUTO_TEST_CASE(mollification)
+{
+  const Folder folder;
+  const std::string input = folder.write("coincident.off", off("0 0 0\n1 0 0\n1 0 0\n0 1 0\n", "3 0 1 3\n3 1 2 3\n")),
+                    obj = folder / "o.obj";
+  check_refused({input, "-o", obj}, 1, "edges of length zero; edge 1-2");
+  check_refused({input, "-o", obj, "--mollify", "0"}, 1, "edges of length zero; edge 1-2");
+  for(const char* bad : { "-1", "nan", "2", "little", "" })
+    check_refused({input, "-o", obj, "--mollify", bad}, 2, "--mollify takes");
+  const Run r = run({input, "-o", obj, "--mollify", "1e-3"});
+  BOOST_TEST_REQUIRE(r.status == 0, r.err);
+  // two sides of the second triangle become longer than the third by the slack
+  const checking::Surface s = checking::read_surface(obj);
+  const auto distance = [&](std::size_t i, std::size_t j)
+    { return std::hypot(s.texture[s.corners[1][i]][0] - s.texture[s.corners[1][j]][0], s.texture[s.corners[1][i]][1] - s.texture[s.corners[1][j]][1]); };
+  const double a = distance(0, 1), b = distance(1, 2), c = distance(2, 0);
+  BOOST_TEST(a > 0);
+  BOOST_TEST(a >= 1e-3 * .5);
+  BOOST_TEST((a + b > c && a + c > b));
+}
+
 BOOST_AUTO_TEST_CASE(not_in_this_version)
 {
   const std::vector<std::vector<std::string> > options = {
-    {"--local-repair"}, {"--cones", "auto"}, {"--cones", "auto=3"},
+    {"--cones", "auto"}, {"--cones", "auto=3"},
     {"--target", "sphere"}, {"--target", "disk"}, {"--boundary", "disk"}, {"--seamless"}, {"--quantize"}, {"--quantize=90"},
-    {"--precision", "200"}, {"--tiles", "4"}, {"--max-scale", "3"} };
+    {"--tiles", "4"}, {"--max-scale", "3"} };
   for(std::vector<std::string> option : options)
   {
     option.insert(option.begin(), "a.off");

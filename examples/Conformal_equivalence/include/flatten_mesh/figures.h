@@ -6,7 +6,7 @@
 
 #include "mesh.h"
 #include "options.h"
-#include "solve.h"
+#include "results.h"
 
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
@@ -63,11 +63,13 @@ struct Figures
   CE::Layout_verdict<Mesh> verdict;
   CE::Conformal_distortion<Mesh> distortion;
   std::size_t number_of_isolated_vertices = 0;
+  std::size_t number_of_rounded_triangles = 0; // with --precision: those that are positive, but not in double
   double u_min = 0, u_max = 0;
 
-  // the common refinement, if that was written
+  // the mesh written, if it is not the one given: the common refinement, or a repaired copy
   bool is_refined = false;
-  std::size_t number_of_crossings = 0, number_of_refined_vertices = 0, number_of_refined_faces = 0;
+  std::size_t number_of_crossings = 0, number_of_made_vertices = 0, number_of_made_faces = 0;
+  Repair_figures repair;
 
   double reading_seconds = 0, verifying_seconds = 0, writing_seconds = 0;
 };
@@ -87,12 +89,25 @@ inline void find_range_of_u(const Result& result, Figures& figures)
     }
 }
 
-inline void describe_refinement(const Result& result, const Refinement& refinement, bool is_refined, Figures& figures)
+inline void describe_made_mesh(const Results& results, bool is_refined, Figures& figures)
 {
   figures.is_refined = is_refined;
-  figures.number_of_crossings = refinement.crossings.size();
-  figures.number_of_refined_vertices = result.mesh.number_of_vertices();
-  figures.number_of_refined_faces = result.mesh.number_of_faces();
+  figures.number_of_crossings = results.refinement.crossings.size();
+  figures.repair = results.repair;
+  figures.number_of_made_vertices = results.made.mesh.number_of_vertices();
+  figures.number_of_made_faces = results.made.mesh.number_of_faces();
+}
+
+// What is wrong only because of rounding.
+inline void forget_rounded_triangles(Figures& figures)
+{
+  CE::Layout_verdict<Mesh>& verdict = figures.verdict;
+  figures.number_of_rounded_triangles = verdict.number_of_flipped_triangles + verdict.number_of_degenerate_triangles;
+  verdict.number_of_flipped_triangles = verdict.number_of_degenerate_triangles = 0;
+  verdict.flipped_faces.clear();
+  verdict.degenerate_faces.clear();
+  if(figures.number_of_rounded_triangles != 0)
+    verdict.injectivity = CE::Injectivity::UNDECIDED;
 }
 
 inline void judge(const Result& result, Figures& figures)
@@ -100,6 +115,8 @@ inline void judge(const Result& result, Figures& figures)
   const Stopwatch watch;
   figures.verdict = CE::verify_layout(result.mesh, result.uv);
   figures.distortion = CE::compute_conformal_distortion(result.mesh, result.uv);
+  if(result.wide.is_used) // the triangles were found to be positive before they were rounded
+    forget_rounded_triangles(figures);
   figures.verifying_seconds = watch.seconds();
 }
 
@@ -146,6 +163,8 @@ inline void add_topology(const Report& report, Lines& lines)
 
 inline const char* mode_text(const Options& options)
 {
+  if(options.local_repair)
+    return "local repair";
   switch(options.retriangulation)
   {
     case CE::Retriangulation::WHEN_NEEDED: return "when-needed";
@@ -159,6 +178,7 @@ inline const char* class_text(const CE::Statistics& s)
   switch(s.conformal_class)
   {
     case CE::Conformal_class::GIVEN_TRIANGULATION:    return "given triangulation, flipped";
+    case CE::Conformal_class::REPAIRED:               return "given triangulation, repaired locally";
     case CE::Conformal_class::DELAUNAY_TRIANGULATION: return "intrinsic Delaunay triangulation, flipped";
     default:                                          return "fixed triangulation";
   }
@@ -175,16 +195,22 @@ inline Lines summary(const Mesh& mesh, const Figures& figures)
     lines.emplace_back("isolated vertices", text(figures.number_of_isolated_vertices, ", carried through"));
   lines.emplace_back("solver", text(s.number_of_iterations, " Newton steps, residual ", s.residual, " radians",
     figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? " (the limit of rounding)" : ""));
-  if(s.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION)
+  if(s.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION && s.conformal_class != CE::Conformal_class::REPAIRED)
     lines.emplace_back("triangulation", text(class_text(s), ": ", s.number_of_flips, " flips", s.is_doubled ? ", on the double" : ""));
-  if(figures.is_refined)
-    lines.emplace_back("refined mesh", text(figures.number_of_refined_vertices, " vertices, ", figures.number_of_refined_faces, " triangles"));
+  if(figures.repair.number_of_flips + figures.repair.number_of_splits != 0)
+    lines.emplace_back("local repair", text(count(figures.repair.number_of_flips, "flip", "flips"), ", ",
+                                            count(figures.repair.number_of_splits, "split", "splits")));
+  if(figures.number_of_made_faces != 0)
+    lines.emplace_back(figures.is_refined ? "refined mesh" : "repaired mesh",
+                       text(figures.number_of_made_vertices, " vertices, ", figures.number_of_made_faces, " triangles"));
   lines.emplace_back("log scale factor u", text("from ", figures.u_min, " to ", figures.u_max));
   lines.emplace_back("quasi-conformal factor", text("mean ", figures.distortion.mean_quasi_conformal_factor,
                                                      ", max ", figures.distortion.maximum_quasi_conformal_factor));
   lines.emplace_back("flipped triangles", text(figures.verdict.number_of_flipped_triangles, " (exact)"));
   if(figures.verdict.number_of_degenerate_triangles != 0)
     lines.emplace_back("degenerate triangles", text(figures.verdict.number_of_degenerate_triangles, " (exact)"));
+  if(figures.number_of_rounded_triangles != 0)
+    lines.emplace_back("triangles too small", text(figures.number_of_rounded_triangles, " for double"));
   lines.emplace_back("injective", injective_text(figures));
   lines.emplace_back("largest length error", text(figures.report.layout_length_error));
   lines.emplace_back("seconds", text("read ", figures.reading_seconds, ", import ", s.seconds.import, ", solve ", s.seconds.solve,
@@ -234,11 +260,16 @@ inline std::string json_report(const Options& options, const Mesh& mesh, const F
   json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips}, {"doubled", s.is_doubled} };
   json["refinement"] = nullptr;
   if(figures.is_refined)
-    json["refinement"] = { {"crossings", figures.number_of_crossings}, {"vertices", figures.number_of_refined_vertices},
-                           {"faces", figures.number_of_refined_faces} };
+    json["refinement"] = { {"crossings", figures.number_of_crossings}, {"vertices", figures.number_of_made_vertices},
+                           {"faces", figures.number_of_made_faces} };
+  json["local_repair"] = nullptr;
+  if(options.local_repair)
+    json["local_repair"] = { {"flips", figures.repair.number_of_flips}, {"splits", figures.repair.number_of_splits},
+                             {"vertices", figures.number_of_made_vertices}, {"faces", figures.number_of_made_faces} };
   json["newton_steps"] = s.number_of_iterations;
   json["pcg_iterations"] = s.number_of_linear_iterations;
   json["factorizations"] = s.number_of_factorizations;
+  json["precision_bits"] = options.precision_in_bits;
   json["residual"] = s.residual;
   json["residual_floor"] = s.residual_floor;
   json["tolerance"] = options.tolerance;
@@ -251,6 +282,7 @@ inline std::string json_report(const Options& options, const Mesh& mesh, const F
                               {"max", figures.distortion.maximum_quasi_conformal_factor} };
   json["flipped_triangles"] = figures.verdict.number_of_flipped_triangles;
   json["degenerate_triangles"] = figures.verdict.number_of_degenerate_triangles;
+  json["triangles_lost_in_double"] = figures.number_of_rounded_triangles;
   json["injective"] = injective_text(figures);
   json["layout_length_error"] = figures.report.layout_length_error;
   json["seconds"] = { {"import", figures.reading_seconds + s.seconds.import}, {"solve", s.seconds.solve},

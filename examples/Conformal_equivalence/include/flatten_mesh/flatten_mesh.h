@@ -13,6 +13,7 @@
 #include "options.h"
 #include "Output_files.h"
 #include "refine.h"
+#include "results.h"
 #include "solve.h"
 
 #include <CGAL/Conformal_equivalence/IO/write_HTML.h>
@@ -141,9 +142,13 @@ inline void write_obj(const Options& options, const Result& result, const Materi
   material.file = name_without_folder(beside.material);
   files.write(options.obj, [&](std::ostream& out)
   {
-    return options.projective
-      ? CE::IO::write_OBJ(out, result.mesh, result.uv, CGAL::parameters::projective_weight_map(result.weight), material)
-      : CE::IO::write_OBJ(out, result.mesh, result.uv, CGAL::parameters::default_values(), material);
+    const auto write = [&](const auto& uv)
+    {
+      return options.projective
+        ? CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::projective_weight_map(result.weight), material)
+        : CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::default_values(), material);
+    };
+    return result.wide.is_used ? write(result.wide.uv) : write(result.uv);
   });
   if(beside.material.empty())
     return;
@@ -186,6 +191,7 @@ inline void run(const Options& options, std::ostream& out, std::ostream& err)
   Output_files files;
   announce_outputs(options, beside, files);
 
+  const CE::Working_precision precision(options.precision_in_bits);
   const Stopwatch watch;
   Mesh mesh;
   read_mesh(options.input, mesh);
@@ -194,23 +200,20 @@ inline void run(const Options& options, std::ostream& out, std::ostream& err)
 
   Conditions conditions(mesh);
   set_conditions(options, mesh, conditions);
-  Result given(mesh);
-  Refinement refinement;
+  Results results(mesh);
   {
     Progress progress(err, ! options.quiet && is_terminal(err));
-    figures.report = flatten(options, conditions, given, refinement, progress);
+    figures.report = flatten(options, conditions, results, progress);
   }
   if(! figures.report)
     fail_to_flatten(options, figures.report);
-  find_range_of_u(given, figures);
+  find_range_of_u(results.given, figures);
 
-  Mesh refined_mesh;
-  Result refined(refined_mesh);
-  const bool is_refined = is_refinement_needed(options, figures.report, refinement);
+  const bool is_refined = is_refinement_needed(options, figures.report, results.refinement);
   if(is_refined)
-    make_refined_mesh(options, given, refinement, refined);
-  const Result& drawn = is_refined ? refined : given;
-  describe_refinement(drawn, refinement, is_refined, figures);
+    make_refined_mesh(options, results.given, results.refinement, results.made);
+  const Result& drawn = is_refined || options.local_repair ? results.made : results.given;
+  describe_made_mesh(results, is_refined, figures);
   judge(drawn, figures);
   require_verdict(options, figures);
   write_outputs(options, mesh, drawn, beside, figures, files);

@@ -12,9 +12,11 @@
 
 #include <boost/program_options.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -32,9 +34,11 @@ struct Options
   std::string cone_file;
   bool unit_square = false;
   bool color_by_quasi_conformal_factor = false;
-  bool refine = false, projective = false, require_injective = false, quiet = false;
+  bool refine = false, local_repair = false, projective = false, require_injective = false, quiet = false;
   CGAL::Conformal_equivalence::Retriangulation retriangulation = CGAL::Conformal_equivalence::Retriangulation::WHEN_NEEDED;
   double tolerance = 1e-12;
+  double mollification = 0;
+  unsigned int precision_in_bits = 53; // that of double, or more
   unsigned int maximum_number_of_iterations = 100;
   std::string solver;
   bool is_help = false, is_version = false;
@@ -73,13 +77,17 @@ inline po::options_description visible_options()
        "always: the result depends on the surface alone, not on its triangulation")
     ("refine", po::bool_switch(), "if edges were flipped, write the mesh of the parts into which they cut the triangles, on which the "
        "map is projective; otherwise this is done with --projective, and where the triangles are flipped if their edges are drawn straight")
-    ("local-repair", po::bool_switch(), "split triangles that break (not in this version)")
+    ("local-repair", po::bool_switch(), "no flips on the way; instead, where triangles break, edges of a copy of the mesh are flipped or split, "
+       "and the copy is written")
+    ("mollify", po::value<std::string>()->default_value("0"), "add the least constant to all lengths with which every triangle inequality "
+       "holds with this slack, relative to the mean length; 0: none")
     ("projective", po::bool_switch(), "write homogeneous texture coordinates u*w, v*w, w")
     ("require-injective", po::bool_switch(), "fail if the layout overlaps itself")
     ("color-by", po::value<std::string>()->default_value("u"), "u | qc: colours of the drawing")
     ("tolerance", po::value<std::string>()->default_value("1e-12"), "largest error of an angle sum, in radians")
     ("max-iterations", po::value<long long>()->default_value(100), "bound on the number of Newton steps")
-    ("precision", po::value<std::string>()->default_value("double"), "double (BITS: not in this version)")
+    ("precision", po::value<std::string>()->default_value("double"), "double | BITS: computes with numbers of so many bits (up to 4096), "
+       "as exactly as they allow, and writes all of their digits")
     ("solver", po::value<std::string>(), "the linear solver: cholmod or simplicial, as far as compiled in")
     ("threads", po::value<long long>()->default_value(1), "number of threads")
     ("quiet", po::bool_switch(), "no summary and no progress")
@@ -121,19 +129,11 @@ inline void refuse_what_is_not_available(const po::variables_map& values)
   check("retriangulate", {"never", "when-needed", "always"}, {});
   check("color-by", {"u", "qc"}, {});
 
-  std::int64_t bits = 0;
-  const std::string precision = values["precision"].as<std::string>();
-  if(precision != "double" && (! Scanner::parse(precision, bits) || bits < 2))
-    throw Usage_error(text("--precision takes 'double' or a number of bits, not '", precision, "'"));
-  if(precision != "double")
-    refuse(text("--precision ", precision));
-
   for(const char* name : {"max-scale", "quantize", "tiles"})
     if(values.count(name))
       refuse(text("--", name));
-  for(const char* name : {"seamless", "local-repair"})
-    if(values[name].as<bool>())
-      refuse(text("--", name));
+  if(values["seamless"].as<bool>())
+    refuse("--seamless");
 }
 
 inline std::array<std::size_t, 4> parse_corners(const std::string& list)
@@ -207,6 +207,14 @@ inline void parse_numbers(const po::variables_map& values, Options& options)
   const std::string tolerance = values["tolerance"].as<std::string>();
   if(! Scanner::parse(tolerance, options.tolerance) || ! std::isfinite(options.tolerance) || ! (options.tolerance > 0))
     throw Usage_error(text("--tolerance takes a positive number, not '", tolerance, "'"));
+  const std::string precision = values["precision"].as<std::string>();
+  std::int64_t bits = 53;
+  if(precision != "double" && (! Scanner::parse(precision, bits) || bits < 2 || bits > 4096))
+    throw Usage_error(text("--precision takes 'double' or a number of bits up to 4096, not '", precision, "'"));
+  options.precision_in_bits = static_cast<unsigned int>((std::max)(bits, std::int64_t(53)));
+  const std::string slack = values["mollify"].as<std::string>();
+  if(! Scanner::parse(slack, options.mollification) || ! (options.mollification >= 0) || ! (options.mollification <= 1))
+    throw Usage_error(text("--mollify takes a number from 0 to 1, not '", slack, "'"));
   const long long iterations = values["max-iterations"].as<long long>();
   if(iterations < 0 || iterations > 1000000)
     throw Usage_error("--max-iterations takes a number from 0 to 1000000");
@@ -286,6 +294,11 @@ inline Options parse_options(int argc, const char* const argv[])
   options.color_by_quasi_conformal_factor = values["color-by"].as<std::string>() == "qc";
   options.retriangulation = parse_retriangulation(values["retriangulate"].as<std::string>());
   options.refine = values["refine"].as<bool>();
+  options.local_repair = values["local-repair"].as<bool>();
+  if(options.local_repair && ! values["retriangulate"].defaulted())
+    throw Usage_error("--local-repair and --retriangulate exclude each other");
+  if(options.local_repair && values["precision"].as<std::string>() != "double")
+    throw Usage_error("--local-repair is computed with --precision double only");
   options.projective = values["projective"].as<bool>();
   options.require_injective = values["require-injective"].as<bool>();
   options.quiet = values["quiet"].as<bool>();

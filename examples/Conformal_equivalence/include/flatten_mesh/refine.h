@@ -7,11 +7,12 @@
 #include "mesh.h"
 #include "messages.h"
 #include "options.h"
-#include "solve.h"
+#include "results.h"
 
 #include <CGAL/Conformal_equivalence/common_refinement.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -38,14 +39,21 @@ inline void find_scale_factors(const Result& given, Result& refined)
 // Makes the mesh of the refinement, of triangles if it can hold them.
 inline void make_refined_mesh(const Options& options, const Result& given, const Refinement& refinement, Result& refined)
 {
-  const auto mesh = CE::import_mesh(given.mesh);
-  const auto make = [&](const Refinement& parts)
+  const auto make = [&](const auto& mesh, const auto& parts)
   {
-    return ! CE::make_refined_mesh(mesh, parts, refined.mesh, refined.uv, CGAL::parameters::default_values(),
-                                   CGAL::parameters::projective_weight_map(refined.weight)).faces.empty();
+    const auto elements = CE::make_refined_mesh(mesh, parts, refined.mesh, refined.uv, CGAL::parameters::default_values(),
+                                                CGAL::parameters::projective_weight_map(refined.weight));
+    if(elements.faces.empty())
+      fail(options.input, ": ", CE::message(CE::Status::NOT_REPRESENTABLE));
+    return elements;
   };
-  if(! make(CE::triangulate_refinement(refinement)))
-    fail(options.input, ": ", CE::message(CE::Status::NOT_REPRESENTABLE));
+  if(given.wide.is_used)
+  {
+    const Wide_refinement parts = CE::triangulate_refinement(given.wide.refinement);
+    set_wide_points(parts, make(CE::import_mesh<CE::Multiprecision_number>(given.mesh), parts), refined.mesh, refined.wide);
+  }
+  else
+    make(CE::import_mesh(given.mesh), CE::triangulate_refinement(refinement));
   find_scale_factors(given, refined);
 }
 

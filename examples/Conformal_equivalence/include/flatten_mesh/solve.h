@@ -8,8 +8,10 @@
 #include "mesh.h"
 #include "messages.h"
 #include "options.h"
+#include "precision.h"
+#include "repair.h"
+#include "results.h"
 
-#include <CGAL/Conformal_equivalence/common_refinement.h>
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -27,9 +29,6 @@
 #endif
 
 namespace flattening {
-
-typedef CE::Flattening_report<Mesh>   Report;
-typedef CE::Common_refinement<double> Refinement;
 
 // Shows on a terminal how far the computation is, in one line that is wiped out at the end.
 class Progress
@@ -78,40 +77,31 @@ struct Progress_visitor : CE::Default_visitor
   }
 };
 
-// A layout, with what goes with it, in maps of the mesh itself.
-struct Result
-{
-  Mesh& mesh;
-  UV_map uv;
-  Vertex_map<double> u, weight;
-
-  explicit Result(Mesh& mesh)
-    : mesh(mesh),
-      uv(mesh.add_property_map<Halfedge, Kernel::Point_2>("h:uv").first),
-      u(mesh.add_property_map<Vertex, double>("v:u", 0.).first),
-      weight(mesh.add_property_map<Vertex, double>("v:weight", 1.).first)
-  {}
-};
-
 template <typename SolverTraits>
 Report flatten_with(const SolverTraits& solver, const Options& options, const Conditions& conditions,
-                    Result& result, Refinement& refinement, Progress& progress)
+                    Results& results, Progress& progress)
 {
   Progress_visitor visitor(progress);
-  return CE::flatten(result.mesh, result.uv,
+  Result& given = results.given;
+  const auto np =
     CGAL::parameters::border_angle_map(conditions.border_angle)
                      .cone_angle_map(conditions.cone_angle)
                      .vertex_is_constrained_map(conditions.is_constrained)
                      .prescribed_log_scale_factor_map(conditions.u)
-                     .log_scale_factor_map(result.u)
-                     .projective_weight_map(result.weight)
+                     .log_scale_factor_map(given.u)
+                     .projective_weight_map(given.weight)
+                     .mollification(options.mollification)
                      .gradient_tolerance(options.tolerance)
                      .number_of_iterations(options.maximum_number_of_iterations)
                      .retriangulation(options.retriangulation)
-                     .common_refinement(std::ref(refinement))
                      .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL)
                      .sparse_linear_solver(solver)
-                     .visitor(std::ref(visitor)));
+                     .visitor(std::ref(visitor));
+  if(options.local_repair)
+    return flatten_repaired(given, results.made, results.repair, np);
+  if(options.precision_in_bits > bits_of_double)
+    return flatten_precisely(given.mesh, given.uv, results.refinement, given.wide, np);
+  return CE::flatten(given.mesh, given.uv, np.common_refinement(std::ref(results.refinement)));
 }
 
 // The linear solvers compiled in, the default first.
@@ -136,11 +126,11 @@ inline void check_solver(const std::string& name)
   throw Usage_error(text("unknown solver '", name, "'; this program has: ", known));
 }
 
-inline Report flatten(const Options& options, const Conditions& conditions, Result& result, Refinement& refinement, Progress& progress)
+inline Report flatten(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
 {
   if(options.solver == "simplicial" && ! std::is_same<CE::Default_solver_traits, CE::Simplicial_solver_traits>::value)
-    return flatten_with(CE::Simplicial_solver_traits(), options, conditions, result, refinement, progress);
-  return flatten_with(CE::Default_solver_traits(), options, conditions, result, refinement, progress);
+    return flatten_with(CE::Simplicial_solver_traits(), options, conditions, results, progress);
+  return flatten_with(CE::Default_solver_traits(), options, conditions, results, progress);
 }
 
 } // namespace flattening

@@ -1,0 +1,59 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef FLATTEN_MESH_RESULTS_H
+#define FLATTEN_MESH_RESULTS_H
+
+#include "mesh.h"
+#include "precision.h"
+
+#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+
+#include <cstddef>
+
+namespace flattening {
+
+typedef CE::Flattening_report<Mesh>   Report;
+typedef CE::Common_refinement<double> Refinement;
+
+// A layout, with what goes with it, in maps of the mesh itself.
+struct Result
+{
+  Mesh& mesh;
+  UV_map uv;
+  Vertex_map<double> u, weight;
+  Wide_layout wide; // with --precision
+
+  explicit Result(Mesh& mesh)
+    : mesh(mesh),
+      uv(mesh.add_property_map<Halfedge, Kernel::Point_2>("h:uv").first),
+      u(mesh.add_property_map<Vertex, double>("v:u", 0.).first),
+      weight(mesh.add_property_map<Vertex, double>("v:weight", 1.).first)
+  {}
+};
+
+// How a copy of the mesh was changed by --local-repair.
+struct Repair_figures
+{
+  std::size_t number_of_flips = 0, number_of_splits = 0;
+};
+
+// The layout of the mesh given and, if another mesh has to be made, of that.
+class Results
+{
+  Mesh m_made_mesh;
+
+public:
+  Result given, made;
+  Refinement refinement;  // if edges were flipped
+  Repair_figures repair;
+
+  explicit Results(Mesh& mesh) : given(mesh), made(m_made_mesh) {}
+  Results(const Results&) = delete;
+  Results& operator=(const Results&) = delete;
+};
+
+} // namespace flattening
+
+#endif // FLATTEN_MESH_RESULTS_H
