@@ -40,6 +40,9 @@ struct Conformal_metric
   bool is_doubled = false;
   /// the edges that were flipped, in order: the record of how `triangulation` came from the one given, or its double
   std::vector<Index> flips;
+  /// the border edges of the surface given that are no edges of the double any more, in ascending order: the border runs there as
+  /// straight as anywhere, but the distance of their ends along it is not e^{(u_i + u_j) / 2} l. Empty unless `is_doubled`.
+  std::vector<Index> lost_border_edges;
   std::vector<NT> log_scale_factors;          ///< u, by vertex of the surface given, rounded to `NT`
 
   /// the vertices at which u is equal to its lower bound, in ascending order; see `Conformal_conditions`

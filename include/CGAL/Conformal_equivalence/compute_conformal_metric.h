@@ -236,6 +236,7 @@ private:
   void solve(const Conformal_conditions<NT>& conditions, const Initial& initial, Retriangulation retriangulation,
              Border_edges border_edges, const internal::Newton_options& options, Visitor& visitor, Metric& result)
   {
+    const internal::Stopwatch stopwatch;
     if(retriangulation != Retriangulation::ALWAYS)
     {
       solve_fixed(conditions, initial, options, visitor, result);
@@ -243,7 +244,7 @@ private:
         return;
     }
     const Metric refused = result.status == Status::ANGLE_OUT_OF_RANGE ? result : Metric();
-    discard(result);
+    discard(result, stopwatch.seconds());
     solve_flipping(conditions, initial, retriangulation, options, visitor, result);
     if(refused.status == Status::ANGLE_OUT_OF_RANGE && is_balance_violated(result.status))
     {
@@ -252,7 +253,7 @@ private:
     }
     if(may_be_helped_by_flips(result) && has_border() && border_edges == Border_edges::FLIPPABLE)
     {
-      discard(result);
+      discard(result, stopwatch.seconds());
       solve_on_double(conditions, retriangulation, options, visitor, result);
     }
   }
@@ -264,9 +265,10 @@ private:
   }
 
   // Begins anew.
-  static void discard(Metric& result)
+  static void discard(Metric& result, double seconds)
   {
     Metric next;
+    next.statistics.seconds.discarded = seconds;
     next.statistics.number_of_discarded_iterations =
       result.statistics.number_of_discarded_iterations + result.statistics.number_of_iterations;
     result = std::move(next);
@@ -315,13 +317,17 @@ private:
     linear_.set_edges(triangulation_);
     linear_has_flips_ = true;
     Flip_observer observer{result.flips, linear_, 0};
+    const internal::Stopwatch stopwatch;
     if(retriangulation == Retriangulation::ALWAYS && !make_delaunay(observer, result))
       return;
     observer.number_of_lasting_flips = result.flips.size();
+    const double seconds = stopwatch.seconds();
     Flipping_energy energy(result.triangulation, observer);
     minimize(result.triangulation, energy, conditions, initial, options, visitor, result);
     result.statistics.number_of_flips = result.flips.size();
+    const internal::Stopwatch verdict_stopwatch;
     tell_about_flips(energy.flipper(), result);
+    result.statistics.seconds.flips = seconds + energy.seconds_of_flips() + verdict_stopwatch.seconds();
     result.statistics.conformal_class = retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
                                                                                    : Conformal_class::GIVEN_TRIANGULATION;
   }

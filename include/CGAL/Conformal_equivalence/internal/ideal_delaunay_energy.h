@@ -13,6 +13,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/delaunay.h>
 #include <CGAL/Conformal_equivalence/internal/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,9 @@ public:
 
   // what was decided, and how, and whether the triangulation is Delaunay
   Delaunay_flipper<Length>& flipper() { return *flipper_; }
+
+  // spent on finding and flipping edges, and on evaluations because of that
+  double seconds_of_flips() const { return seconds_; }
 
   // moves to u, on the triangulation that is ideal Delaunay there
   bool evaluate(const std::vector<double>& u)
@@ -97,6 +101,7 @@ public:
   template <typename Scale>
   bool make_delaunay(const std::vector<Scale>& s, const std::vector<double>& u)
   {
+    const Timer timer(seconds_);
     std::vector<Index> all(t_.number_of_edges());
     std::iota(all.begin(), all.end(), Index(0));
     if(!flip(s, std::move(all)))
@@ -106,6 +111,19 @@ public:
   }
 
 private:
+  // Adds the time until its end.
+  class Timer
+  {
+    double& sum_;
+    Stopwatch stopwatch_;
+
+  public:
+    explicit Timer(double& sum) : sum_(sum) {}
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+    ~Timer() { sum_ += stopwatch_.seconds(); }
+  };
+
   // u at one vertex, and what the angle sum there is then
   struct Probe
   {
@@ -122,7 +140,10 @@ private:
         if(t_.is_flippable(e))
           candidates.push_back(e);
     });
-    flip(this->scales(), std::move(candidates));
+    {
+      const Timer timer(seconds_);
+      flip(this->scales(), std::move(candidates));
+    }
     const std::pair<double, double> sum = this->angle_sum_at(v);
     return {u, sum.first - target, sum.second};
   }
@@ -130,6 +151,7 @@ private:
   bool flip_at(const std::vector<double>& u)
   {
     bool is_finite = Base::evaluate(u);
+    const Timer timer(seconds_);
     for(int round = 0; is_finite && round < 100; ++round)
     {
       std::vector<Index> candidates = suspects();
@@ -189,6 +211,7 @@ private:
   const Triangulation given_;
   std::unique_ptr<Delaunay_flipper<Length> > flipper_;
   Observer& observer_;
+  double seconds_ = 0;
   bool is_worn_ = false; // some length is known less well than to rounding
 };
 
