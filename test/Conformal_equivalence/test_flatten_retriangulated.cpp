@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -64,6 +65,9 @@ Metric solved(const Triangulation& t, const Conditions& conditions, Retriangulat
                  <= (std::max)(1e-10, 1e-13 / thinnest));
     else if(!t.is_isolated_vertex(v))
       BOOST_TEST(metric.log_scale_factors[v] == conditions.log_scale_factor(v));
+  const CE::Delaunay_property delaunay = metric.statistics.delaunay;
+  BOOST_TEST((delaunay == CE::Delaunay_property::EXACT || delaunay == CE::Delaunay_property::WITHIN_ROUNDING
+              || (delaunay == CE::Delaunay_property::NOT_ASKED && !metric.is_retriangulated())));
   if(metric.is_retriangulated())
     for(Index e = 0; e < r.number_of_edges(); ++e)
       if(r.is_flippable(e))
@@ -225,6 +229,33 @@ BOOST_AUTO_TEST_CASE(energy_across_flips)
   }
 }
 
+// A vertex alone is moved to where its angle sum is as asked for, and no farther than allowed.
+BOOST_AUTO_TEST_CASE(relaxing_a_vertex)
+{
+  Triangulation t = triangulation(icosphere(2));
+  Silent_observer observer;
+  CE::internal::Ideal_delaunay_energy<double, Silent_observer> energy(t, observer);
+  const Index n = t.number_of_vertices();
+  std::vector<double> u = random_numbers(n, .3, 23);
+  for(Index v : { 0, 20, 77 })
+    for(double target : { .01, .5, 3., 6., 9., 30. })
+    {
+      BOOST_TEST_REQUIRE(energy.evaluate(u));
+      const double given = u[v], residual = energy.angle_sums()[v] - target;
+      std::vector<double> moved = u;
+      moved[v] = energy.relax(v, target, given, 1.5);
+      BOOST_TEST_REQUIRE(energy.evaluate(moved));
+      const double left = energy.angle_sums()[v] - target;
+      if(std::abs(moved[v] - given) == 1.5)
+        BOOST_TEST(left * residual > 0); // it is still on the same side
+      else
+        BOOST_TEST(std::abs(left) <= .0101);
+      BOOST_TEST(std::abs(moved[v] - given) <= 1.5);
+      BOOST_TEST((moved[v] == given || (moved[v] > given) == (residual > 0)));
+      BOOST_TEST(energy.relax(v, target, moved[v], 0) == moved[v]);
+    }
+}
+
 // --- closed surfaces ----------------------------------------------------------------------------
 
 BOOST_AUTO_TEST_CASE(random_curvatures)
@@ -270,10 +301,71 @@ BOOST_AUTO_TEST_CASE(extreme_cones)
       conditions.prescribe_angle_sum(v, Angle::pi_times(1));
       cones.push_back(v);
     }
-    BOOST_TEST((CE::compute_conformal_metric(ring, conditions).status != Status::OK));
+    BOOST_TEST((CE::compute_conformal_metric(ring, conditions, params::retriangulation(Retriangulation::NEVER)).status != Status::OK));
     const Metric metric = solved(ring, conditions, Retriangulation::WHEN_NEEDED);
     BOOST_TEST(metric.is_retriangulated());
     checked_layout(ring, metric, cones);
+  }
+}
+
+// With angles of all sizes there are needles, whose angles go from 0 to pi within a change of u by 1e-8 and less. Newton's method
+// takes two to three times as many steps, unless vertices at their ends are moved by themselves.
+BOOST_AUTO_TEST_CASE(needles_do_not_hold_up)
+{
+  const Triangulation sphere = triangulation(icosphere(3));
+  for(unsigned seed : { 0, 1, 3 })
+    for(double spread : { 2., 3. })
+    {
+      const Metric metric = solved(sphere, random_angles(sphere, spread, seed), Retriangulation::WHEN_NEEDED);
+      BOOST_TEST(metric.is_retriangulated());
+      BOOST_TEST(metric.statistics.number_of_iterations <= 28u);
+    }
+  const Triangulation ring = triangulation(torus(40, 24));
+  Conditions conditions(ring); // the angle of 40 pi
+  conditions.prescribe_angle_sum(3, Angle::pi_times(40));
+  for(Index i = 0; i < 38; ++i)
+    conditions.prescribe_angle_sum(7 + 23 * i, Angle::pi_times(1));
+  for(Retriangulation mode : { Retriangulation::WHEN_NEEDED, Retriangulation::ALWAYS })
+    BOOST_TEST(solved(ring, conditions, mode).is_retriangulated());
+}
+
+// Lengths that violate a triangle inequality by no more than their rounding are those of degenerate triangles.
+BOOST_AUTO_TEST_CASE(inequalities_violated_by_rounding)
+{
+  const double eps = std::numeric_limits<double>::epsilon();
+  using CE::internal::is_triangle_up_to_rounding;
+  BOOST_TEST(is_triangle_up_to_rounding(1., 1., 2.));
+  BOOST_TEST(is_triangle_up_to_rounding(1., 2 + 6 * eps, 1.));
+  BOOST_TEST(is_triangle_up_to_rounding(2 + 8 * eps, 1., 1.));
+  BOOST_TEST(!is_triangle_up_to_rounding(2 + 10 * eps, 1., 1.));
+  BOOST_TEST(!is_triangle_up_to_rounding(1., 1., 2 + 10 * eps));
+  BOOST_TEST(is_triangle_up_to_rounding(1e-300, 1., 1 + eps));
+  BOOST_TEST(!is_triangle_up_to_rounding(1., 1e-300, 1 + 5 * eps));
+
+  // a triangle from both sides, with the midpoint of a side on one of them
+  Soup soup;
+  soup.points = {{{0, 0, 0}}, {{1, 0, 0}}, {{.5, std::sqrt(.75), 0}}, {{.5, 0, 0}}};
+  soup.triangles = {{{0, 1, 2}}, {{1, 0, 3}}, {{2, 1, 3}}, {{0, 2, 3}}};
+  for(double excess : { 0., eps, 4 * eps, 1e-12 })
+  {
+    Triangulation t = triangulation(soup);
+    for(Index h = 0; h < t.number_of_halfedges(); ++h)
+      if(t.origin(h) == 0 && t.target(h) == 1)
+        t.set_length(t.edge(h), 1 + excess);
+    Conditions conditions(t);
+    for(Index v = 0; v < 4; ++v)
+      conditions.prescribe_angle_sum(v, Angle::pi_times(1));
+    if(excess < 1e-14)
+    {
+      const Metric metric = solved(t, conditions, Retriangulation::ALWAYS);
+      BOOST_TEST((metric.statistics.conformal_class == CE::Conformal_class::DELAUNAY_TRIANGULATION));
+    }
+    else
+    {
+      const Metric metric = CE::compute_conformal_metric(t, conditions, params::retriangulation(Retriangulation::ALWAYS));
+      BOOST_TEST((metric.status == Status::DEGENERATE_METRIC));
+      BOOST_TEST((metric.faces == std::vector<Index>{1}));
+    }
   }
 }
 
@@ -356,6 +448,56 @@ BOOST_AUTO_TEST_CASE(diagonals_of_planar_quads)
   }
 }
 
+// The same for a disk of parallelograms, no two of which lie in one plane, with its border: their diagonals do not matter.
+BOOST_AUTO_TEST_CASE(diagonals_of_a_disk_of_parallelograms)
+{
+  const Index n = 12;
+  const auto surface = [&](unsigned seed)
+  {
+    std::mt19937 random(seed);
+    Soup soup;
+    for(Index j = 0; j <= n; ++j)
+      for(Index i = 0; i <= n; ++i)
+        soup.points.push_back({{double(i), j + .3 * std::sin(2. * i), 1.5 * std::sin(.7 * i) + 2 * std::cos(.9 * j)}});
+    for(Index j = 0; j < n; ++j)
+      for(Index i = 0; i < n; ++i)
+      {
+        const Index a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
+        if(seed == 0 || (seed > 1 && random() % 2 == 0))
+          soup.triangles.insert(soup.triangles.end(), {{{a, b, c}}, {{a, c, d}}});
+        else
+          soup.triangles.insert(soup.triangles.end(), {{{a, b, d}}, {{b, c, d}}});
+      }
+    return triangulation(soup);
+  };
+  std::vector<double> expected;
+  std::vector<Complex> expected_points;
+  std::size_t differing = 0;
+  for(unsigned seed = 0; seed < 5; ++seed)
+  {
+    const Triangulation t = surface(seed);
+    const Conditions conditions(t);
+    const Metric metric = solved(t, conditions, Retriangulation::ALWAYS), given = solved(t, conditions, Retriangulation::WHEN_NEEDED);
+    const CE::Layout<double> layout = checked_layout(t, metric, {});
+    std::vector<Complex> points(t.number_of_vertices());
+    for(Index h = 0; h < t.number_of_halfedges(); ++h)
+      points[t.target(h)] = complex(layout.corner[h]);
+    if(seed == 0)
+    {
+      expected = metric.log_scale_factors;
+      expected_points = points;
+    }
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+    {
+      BOOST_TEST(std::abs(metric.log_scale_factors[v] - expected[v]) <= 1e-10);
+      const double length = std::abs(points[v] - points[0]), expected_length = std::abs(expected_points[v] - expected_points[0]);
+      BOOST_TEST(std::abs(length - expected_length) <= 1e-10 * n);
+      differing += std::abs(given.log_scale_factors[v] - expected[v]) > 1e-4;
+    }
+  }
+  BOOST_TEST(differing > 0u); // without it, diagonals matter
+}
+
 // --- borders ------------------------------------------------------------------------------------
 
 // On the double of a surface the solution is that of the surface, twice.
@@ -384,6 +526,43 @@ BOOST_AUTO_TEST_CASE(double_of_a_surface)
   }
 }
 
+namespace {
+
+// Border edges are as long as u says, but for those that were flipped away; if none may be, there is no metric.
+void check_border_edges(const Triangulation& t, const Conditions& conditions, const Metric& metric, const CE::Layout<double>& layout)
+{
+  const Metric kept = CE::compute_conformal_metric(t, conditions, params::retriangulation(Retriangulation::WHEN_NEEDED)
+                                                                           .border_edges(CE::Border_edges::KEPT));
+  BOOST_TEST(!kept.is_doubled);
+  BOOST_TEST(kept.lost_border_edges.empty());
+  BOOST_TEST(metric.lost_border_edges.empty() == !metric.is_doubled);
+  if(metric.is_doubled)
+  {
+    BOOST_TEST((kept.status == Status::DEGENERATE_METRIC));
+    BOOST_TEST(!kept.faces.empty());
+    for(Index f : kept.faces)
+      BOOST_TEST((kept.triangulation.is_border(3 * f) || kept.triangulation.is_border(3 * f + 1) || kept.triangulation.is_border(3 * f + 2)));
+  }
+  else
+    BOOST_TEST(kept.log_scale_factors == metric.log_scale_factors);
+  std::vector<char> is_lost(t.number_of_edges(), 0);
+  for(Index e : metric.lost_border_edges)
+  {
+    BOOST_TEST(t.is_border_edge(e));
+    is_lost[e] = 1;
+  }
+  for(Index h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    if(!t.is_border(h))
+      continue;
+    const double length = std::abs(complex(layout.corner[h]) - complex(layout.corner[t.previous(h)]));
+    const double said = t.halfedge_length(h) * std::exp((metric.log_scale_factors[t.origin(h)] + metric.log_scale_factors[t.target(h)]) / 2);
+    BOOST_TEST((std::abs(length - said) <= 1e-11 * said) == !is_lost[t.edge(h)]);
+  }
+}
+
+} // namespace
+
 // Obtuse triangles along the border, which flips inside cannot help.
 BOOST_AUTO_TEST_CASE(borders_that_need_the_double)
 {
@@ -405,6 +584,7 @@ BOOST_AUTO_TEST_CASE(borders_that_need_the_double)
       const Metric metric = solved(s, conditions, Retriangulation::WHEN_NEEDED);
       doubled += metric.is_doubled;
       const CE::Layout<double> layout = checked_layout(s, metric, {});
+      check_border_edges(s, conditions, metric, layout);
       // the border is a polygon of straight sides; its turning is that of the angles
       std::vector<Complex> side;
       for(Index h = 0; h < s.number_of_halfedges(); ++h)

@@ -287,6 +287,9 @@ struct [[nodiscard]] Flattening_report
   std::vector<Seam_transition<TriangleMesh> > transitions;   ///< one for every edge of the seam; none across the borders of charts
   std::vector<Period_lattice<> > lattices;                   ///< of the tori, in the order of their first faces
 
+  /// border edges that were flipped away: with fixed u at both ends these need not be as long as that makes them
+  std::vector<edge_descriptor> lost_border_edges;
+
   /// faces whose images are positive in the common refinement, while the straight triangles between the images of their corners are
   /// flipped or flat; none unless a refinement was asked for
   std::vector<face_descriptor> bent_faces;

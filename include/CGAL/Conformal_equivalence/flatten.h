@@ -45,6 +45,55 @@ namespace Conformal_equivalence {
 
 namespace internal {
 
+// Does some work, with the visitor told, and adds the seconds that it took.
+template <typename Visitor, typename Work>
+void timed(double& seconds, Stage stage, Visitor& visitor, Work work)
+{
+  const Stopwatch stopwatch;
+  visitor.on_stage(stage);
+  work();
+  seconds += stopwatch.seconds();
+}
+
+// The conditions that the named parameters give for the mesh; `report` names the vertices that lack one.
+template <typename TriangleMesh, typename NT, typename NamedParameters>
+Conformal_conditions<NT> read_conditions_or_name(const Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& np,
+                                                 Flattening_report<TriangleMesh>& report)
+{
+  std::vector<std::uint32_t> missing;
+  const Conformal_conditions<NT> result = read_conditions(mesh, missing, np);
+  if(!missing.empty())
+  {
+    report.status = Status::MISSING_CONDITION;
+    name_elements(mesh, missing, {}, {}, report);
+  }
+  return result;
+}
+
+// In increasing order.
+template <typename NT>
+std::vector<std::uint32_t> interior_cones(const Intrinsic_triangulation<NT>& t, const Conformal_conditions<NT>& conditions)
+{
+  std::vector<std::uint32_t> result;
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v) && conditions.is_cone(v))
+      result.push_back(v);
+  return result;
+}
+
+// The angle sum at `v` in the metric found.
+template <typename NT>
+double angle_sum_at(const Conformal_metric<NT>& metric, std::uint32_t v)
+{
+  double result = 0;
+  metric.triangulation.for_each_outgoing(v, [&](std::uint32_t h)
+  {
+    const auto triangle = wide_triangle(metric.triangulation, metric.scale_factors, h / 3);
+    result += 2 * std::atan2(static_cast<double>(triangle.r), static_cast<double>(triangle.tangent[(h + 1) % 3]));
+  });
+  return result;
+}
+
 // One flattening: the stages one after the other, each a value that the next takes.
 // What the user gets is written by the caller, from `metric`, `cut` and `layout`.
 template <typename TriangleMesh, typename NT = double>
@@ -132,15 +181,6 @@ private:
     }
   }
 
-  template <typename Visitor, typename Work>
-  static void timed(double& seconds, Stage stage, Visitor& visitor, Work work)
-  {
-    const Stopwatch stopwatch;
-    visitor.on_stage(stage);
-    work();
-    seconds += stopwatch.seconds();
-  }
-
   template <typename NamedParameters>
   void import_lengths(const NamedParameters& np)
   {
@@ -155,18 +195,10 @@ private:
   template <typename NamedParameters>
   bool read(const NamedParameters& np)
   {
-    std::vector<Index> missing;
-    conditions_ = read_conditions(mesh, missing, np);
-    if(!missing.empty())
-    {
-      report.status = Status::MISSING_CONDITION;
-      name_elements(mesh, missing, {}, {}, report);
+    conditions_ = read_conditions_or_name(mesh, np, report);
+    if(!bool(report))
       return false;
-    }
-    const Intrinsic_triangulation<NT>& t = mesh.triangulation;
-    for(Index v = 0; v < t.number_of_vertices(); ++v)
-      if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v) && conditions_.is_cone(v))
-        cones_.push_back(v);
+    cones_ = interior_cones(mesh.triangulation, conditions_);
     return true;
   }
 
@@ -392,9 +424,11 @@ private:
 
   void tell_what_was_found()
   {
+    for(Index e : metric.lost_border_edges)
+      report.lost_border_edges.push_back(mesh.edge(e));
     for(Index v : cones_)
       report.cones.push_back({mesh.vertex(v), mesh.index_of_vertex(mesh.vertex(v)),
-                              conditions_.is_fixed(v) ? angle_sum(v) : conditions_.angle_sum(v).template radians<double>(),
+                              conditions_.is_fixed(v) ? angle_sum_at(metric, v) : conditions_.angle_sum(v).template radians<double>(),
                               conditions_.is_fixed(v)});
     const auto rounded = [](const std::array<NT, 2>& z) { return std::array<double, 2>{{static_cast<double>(z[0]), static_cast<double>(z[1])}}; };
     for(const Transition<NT>& motion : layout.transitions)
@@ -402,19 +436,6 @@ private:
     for(const Period_lattice<NT>& lattice : layout.lattices)
       report.lattices.push_back({mesh.position_of_face(Index(lattice.face)),
                                  {{rounded(lattice.periods[0]), rounded(lattice.periods[1])}}, rounded(lattice.tau)});
-  }
-
-  // The angle sum at `v` in the metric found.
-  double angle_sum(Index v) const
-  {
-    double result = 0;
-    const Intrinsic_triangulation<NT>& t = metric.triangulation;
-    t.for_each_outgoing(v, [&](Index h)
-    {
-      const auto triangle = wide_triangle(t, metric.scale_factors, h / 3);
-      result += 2 * std::atan2(static_cast<double>(triangle.r), static_cast<double>(triangle.tangent[(h + 1) % 3]));
-    });
-    return result;
   }
 
   Conformal_conditions<NT> conditions_;
@@ -624,7 +645,7 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 ///     \cgalParamType{`Layout_frame`, or `Pinned_frame<vertex_descriptor>`}
 ///     \cgalParamDefault{`Layout_frame::CANONICAL`}
 ///   \cgalParamNEnd
-///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, newton_strategy, retriangulation, visitor}
+///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, newton_strategy, retriangulation, border_edges, visitor}
 ///     \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
 ///   \cgalParamNBegin{sparse_linear_solver} \cgalParamDescription{as in `compute_conformal_metric()`} \cgalParamNEnd
 ///   \cgalParamNBegin{common_refinement}

@@ -217,15 +217,6 @@ struct Repaired_flattening
   }
 
 private:
-  template <typename Visitor, typename Work>
-  static void timed(double& seconds, Stage stage, Visitor& visitor, Work work)
-  {
-    const Stopwatch stopwatch;
-    visitor.on_stage(stage);
-    work();
-    seconds += stopwatch.seconds();
-  }
-
   template <typename NamedParameters>
   void read_conditions_of_mesh(const NamedParameters& np, Flattening_report<TriangleMesh>& report)
   {
@@ -234,17 +225,8 @@ private:
     report = import_report(mesh);
     if(!bool(report))
       return;
-    std::vector<Index> missing;
-    conditions_ = read_conditions(mesh, missing, np);
-    if(!missing.empty())
-    {
-      report.status = Status::MISSING_CONDITION;
-      name_elements(mesh, missing, {}, {}, report);
-    }
-    const Intrinsic_triangulation<double>& t = mesh.triangulation;
-    for(Index v = 0; v < t.number_of_vertices(); ++v)
-      if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v) && conditions_.is_cone(v))
-        cones_.push_back(v);
+    conditions_ = read_conditions_or_name(mesh, np, report);
+    cones_ = interior_cones(mesh.triangulation, conditions_);
     report.statistics.seconds.import = stopwatch.seconds();
   }
 
@@ -379,21 +361,9 @@ private:
   void tell_what_was_found(Flattening_report<TriangleMesh>& report) const
   {
     for(const Index v : cones_)
-      report.cones.push_back({mesh.vertex(v), v, conditions_.is_fixed(v) ? angle_sum(v) : conditions_.angle_sum(v).radians(),
+      report.cones.push_back({mesh.vertex(v), v, conditions_.is_fixed(v) ? angle_sum_at(repaired.metric, v) : conditions_.angle_sum(v).radians(),
                               conditions_.is_fixed(v)});
     report.lattices.assign(layout.lattices.begin(), layout.lattices.end());
-  }
-
-  // The angle sum at `v` in the metric found.
-  double angle_sum(Index v) const
-  {
-    double result = 0;
-    repaired.triangulation().for_each_outgoing(v, [&](Index h)
-    {
-      const Incircle_form<Double_double> triangle = wide_triangle(repaired.triangulation(), repaired.metric.scale_factors, h / 3);
-      result += 2 * std::atan2(to_double(triangle.r), to_double(triangle.tangent[(h + 1) % 3]));
-    });
-    return result;
   }
 
   Conformal_conditions<double> conditions_;

@@ -197,6 +197,8 @@ inline Lines summary(const Mesh& mesh, const Figures& figures)
     figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? " (the limit of rounding)" : ""));
   if(s.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION && s.conformal_class != CE::Conformal_class::REPAIRED)
     lines.emplace_back("triangulation", text(class_text(s), ": ", s.number_of_flips, " flips", s.is_doubled ? ", on the double" : ""));
+  if(! figures.report.lost_border_edges.empty())
+    lines.emplace_back("border edges flipped", text(figures.report.lost_border_edges.size()));
   if(figures.repair.number_of_flips + figures.repair.number_of_splits != 0)
     lines.emplace_back("local repair", text(count(figures.repair.number_of_flips, "flip", "flips"), ", ",
                                             count(figures.repair.number_of_splits, "split", "splits")));
@@ -257,7 +259,8 @@ inline std::string json_report(const Options& options, const Mesh& mesh, const F
   json["genus"] = t.genus;
   json["borders"] = t.number_of_borders;
   json["components"] = t.number_of_components;
-  json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips}, {"doubled", s.is_doubled} };
+  json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips}, {"doubled", s.is_doubled},
+                              {"lost_border_edges", figures.report.lost_border_edges.size()} };
   json["refinement"] = nullptr;
   if(figures.is_refined)
     json["refinement"] = { {"crossings", figures.number_of_crossings}, {"vertices", figures.number_of_made_vertices},

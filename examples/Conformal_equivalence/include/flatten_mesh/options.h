@@ -34,7 +34,7 @@ struct Options
   std::string cone_file;
   bool unit_square = false;
   bool color_by_quasi_conformal_factor = false;
-  bool refine = false, local_repair = false, projective = false, require_injective = false, quiet = false;
+  bool keep_border = false, refine = false, local_repair = false, projective = false, require_injective = false, quiet = false;
   CGAL::Conformal_equivalence::Retriangulation retriangulation = CGAL::Conformal_equivalence::Retriangulation::WHEN_NEEDED;
   double tolerance = 1e-12;
   double mollification = 0;
@@ -75,6 +75,7 @@ inline po::options_description visible_options()
     ("retriangulate", po::value<std::string>()->default_value("when-needed"), "never: edges are kept\n"
        "when-needed: edges are flipped where there is no solution otherwise (default)\n"
        "always: the result depends on the surface alone, not on its triangulation")
+    ("keep-border", po::bool_switch(), "no border edge is flipped, so that all are as long as u at their ends makes them; fails where that cannot be")
     ("refine", po::bool_switch(), "if edges were flipped, write the mesh of the parts into which they cut the triangles, on which the "
        "map is projective; otherwise this is done with --projective, and where the triangles are flipped if their edges are drawn straight")
     ("local-repair", po::bool_switch(), "no flips on the way; instead, where triangles break, edges of a copy of the mesh are flipped or split, "
@@ -293,6 +294,7 @@ inline Options parse_options(int argc, const char* const argv[])
   options.unit_square = values["frame"].as<std::string>() == "unit-square";
   options.color_by_quasi_conformal_factor = values["color-by"].as<std::string>() == "qc";
   options.retriangulation = parse_retriangulation(values["retriangulate"].as<std::string>());
+  options.keep_border = values["keep-border"].as<bool>();
   options.refine = values["refine"].as<bool>();
   options.local_repair = values["local-repair"].as<bool>();
   if(options.local_repair && ! values["retriangulate"].defaulted())

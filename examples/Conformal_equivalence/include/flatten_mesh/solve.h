@@ -94,6 +94,7 @@ Report flatten_with(const SolverTraits& solver, const Options& options, const Co
                      .gradient_tolerance(options.tolerance)
                      .number_of_iterations(options.maximum_number_of_iterations)
                      .retriangulation(options.retriangulation)
+                     .border_edges(options.keep_border ? CE::Border_edges::KEPT : CE::Border_edges::FLIPPABLE)
                      .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL)
                      .sparse_linear_solver(solver)
                      .visitor(std::ref(visitor));
