@@ -450,8 +450,8 @@ NT euclidean_length(const Intrinsic_triangulation<NT>& t, std::uint32_t e)
   return Euclidean_diagonal<NT>(quad_lengths(t, quad_edges(t, e))).length();
 }
 
-// Lengths computed from coordinates are rounded: by less than 3.5 * 2^-53 for the square root of a sum of squares of differences, so that
-// those of a degenerate triangle can violate its inequality by 7 * 2^-53 of the longest.
+// Lengths computed from coordinates are rounded: by less than 3.5 * 2^-53 for the square root of a sum of squares of
+// differences, so that those of a degenerate triangle can violate its inequality by 7 * 2^-53 of the longest.
 
 /// whether `a`, `b`, `c` are the lengths of a triangle, possibly a degenerate one, up to their rounding: no one is longer
 /// than the other two together by more than 4 epsilon (8 * 2^-53) of itself. Decided exactly

@@ -119,7 +119,7 @@ public:
         return Status::OK;
       if(!visitor_.go_further())
         return Status::STOPPED_BY_VISITOR;
-      if(iteration == options_.number_of_iterations)
+      if(iteration == options_.number_of_iterations || (is_careful() && has_stopped()))
         return Status::ITERATIONS_EXHAUSTED;
       if(!solver_.has_factor() && !solver_.factorize(energy_.weights()))
         return Status::SINGULAR_PROBLEM;
@@ -136,6 +136,17 @@ public:
 private:
   // (where bounds are active, residuals may grow on the way)
   bool is_careful() const { return options_.is_careful && bounds_.empty(); }
+
+  // Has the residual been the same for a while? Where triangles are not broken it is not, unless steps come to nothing by rounding.
+  bool has_stopped() const
+  {
+    const std::vector<double>& history = statistics_.residuals;
+    const std::size_t a_while = 10;
+    if(history.size() <= a_while)
+      return false;
+    const auto extremes = std::minmax_element(history.end() - a_while - 1, history.end());
+    return *extremes.second - *extremes.first <= 1e-6 * *extremes.second;
+  }
 
   // Near the rounding floor, however high that is, and without gain for a while: what is left to do is up to the wider type.
   bool is_stuck_at_floor(std::size_t iteration, double size, const Vertex_vector& u)
