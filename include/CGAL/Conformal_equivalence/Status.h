@@ -198,6 +198,7 @@ struct Statistics
   Delaunay_property delaunay = Delaunay_property::NOT_ASKED; ///< whether the triangulation found is Delaunay
   std::size_t number_of_discarded_iterations = 0; ///< Newton steps on the fixed triangulation, before flips were found to be needed
   double residual = 0;                         ///< largest difference of an angle sum from its target (radians)
+
   /// below it a residual cannot be told from rounding (radians): in `double`, or, if only this was reached, in the wide number type
   double residual_floor = 0;
   Refinement_arithmetic refinement_arithmetic = Refinement_arithmetic::DOUBLE; ///< in which the last steps were computed
