@@ -23,7 +23,9 @@
 #include "../include/farthest_points.h"
 #include "../include/plates.h"
 
+#include <CGAL/Conformal_equivalence/certify.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 
@@ -87,6 +89,7 @@ struct Outcome
   Status status = Status::OK;
   double residual = 0; // as evaluated again
   CE::Statistics statistics;
+  CE::Layout_certificate certificate;
   std::string text;
 
   // what conditions miss the Gauss-Bonnet formula by is added to them
@@ -154,6 +157,18 @@ bool has_violations(const Triangulation& t)
   return false;
 }
 
+// Is the map to the plane one-to-one around every point that is no cone?
+CE::Layout_certificate certify(const Problem& problem, const Metric& metric)
+{
+  const Triangulation& t = problem.triangulation;
+  std::vector<Index> cones;
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v) && problem.conditions.is_cone(v))
+      cones.push_back(v);
+  const unsigned int most_bits = 1700;
+  return CE::certify_layout(t, metric, CE::compute_cut_graph(t, cones), problem.conditions, most_bits);
+}
+
 Outcome solve(const Problem& problem, Retriangulation mode)
 {
   Deadline deadline;
@@ -167,6 +182,8 @@ Outcome solve(const Problem& problem, Retriangulation mode)
   result.statistics = metric.statistics;
   result.text = message(metric.status);
   result.residual = metric ? measured_residual(problem.triangulation, problem.conditions, metric) : metric.statistics.residual;
+  if(metric)
+    result.certificate = certify(problem, metric);
   return result;
 }
 
@@ -655,7 +672,7 @@ const Group& find_group(const std::string& name)
 // ---- Tables
 
 const Row columns = { "group", "mode", "cases", "refused", "success", "flips: median", "max", "Newton steps: median", "max", "discarded: median", "max",
-                      "seconds", "longest", "worst residual", "floor", "Delaunay: exact", "within bounds", "no" };
+                      "seconds", "longest", "worst residual", "floor", "Delaunay: exact", "within bounds", "no", "certified", "most bits", "lost in double" };
 
 void print_row(const Row& cells)
 {
@@ -698,7 +715,8 @@ double seconds_of(const CE::Statistics& s)
 Row row_of(const Group& group, Retriangulation mode, const std::vector<Outcome>& outcomes)
 {
   std::vector<std::size_t> flips, steps, discarded;
-  std::size_t successes = 0, refused = 0, delaunay[4] = { 0, 0, 0, 0 };
+  std::size_t successes = 0, refused = 0, delaunay[4] = { 0, 0, 0, 0 }, certified = 0, lost = 0;
+  unsigned int bits = 0;
   double seconds = 0, longest = 0, residual = 0, floor = 0;
   for(const Outcome& outcome : outcomes)
   {
@@ -713,6 +731,9 @@ Row row_of(const Group& group, Retriangulation mode, const std::vector<Outcome>&
     steps.push_back(s.number_of_iterations);
     discarded.push_back(s.number_of_discarded_iterations);
     ++delaunay[std::size_t(s.delaunay)];
+    certified += bool(outcome.certificate);
+    bits = (std::max)(bits, outcome.certificate.precision_in_bits);
+    lost += outcome.certificate.number_of_faces_lost_in_double != 0;
     residual = (std::max)(residual, outcome.residual);
     floor = (std::max)(floor, s.residual_floor);
   }
@@ -727,6 +748,8 @@ Row row_of(const Group& group, Retriangulation mode, const std::vector<Outcome>&
     row.push_back(to_text(x));
   for(CE::Delaunay_property property : { CE::Delaunay_property::EXACT, CE::Delaunay_property::WITHIN_ROUNDING, CE::Delaunay_property::NO })
     row.push_back(std::to_string(delaunay[std::size_t(property)]));
+  for(std::size_t x : { certified, std::size_t(bits), lost })
+    row.push_back(bits == 0 ? "" : std::to_string(x));
   return row;
 }
 

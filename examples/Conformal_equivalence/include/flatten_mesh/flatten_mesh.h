@@ -68,15 +68,31 @@ inline void announce_outputs(const Options& options, const Material_files& besid
       files.announce(file);
 }
 
+// What may help.
+inline const char* advice(const Options& options, const Report& report)
+{
+  const char* flips = " (--retriangulate never; other values flip edges)";
+  const bool keeps_triangulation = ! options.local_repair && options.retriangulation == CE::Retriangulation::NEVER;
+  switch(report.status)
+  {
+    case CE::Status::ANGLE_OUT_OF_RANGE:
+      return keeps_triangulation && report.amount > 0 ? flips : "";
+    case CE::Status::DEGENERATE_METRIC:
+    case CE::Status::ITERATIONS_EXHAUSTED:
+      return keeps_triangulation ? flips : "";
+    case CE::Status::MISSING_CONDITION:
+      return options.cone_file.empty() ? " (--cones FILE)" : "";
+    case CE::Status::NOT_INJECTIVE: // by rounding: the metric is one
+      return options.precision_in_bits == bits_of_double && ! options.local_repair ? " (--precision BITS has more digits)" : "";
+    default:
+      return "";
+  }
+}
+
 // Says why there is no result.
 [[noreturn]] inline void fail_to_flatten(const Options& options, const Report& report)
 {
-  const bool may_be_the_triangulation = options.retriangulation == CE::Retriangulation::NEVER
-    && (report.status == CE::Status::DEGENERATE_METRIC || report.status == CE::Status::ITERATIONS_EXHAUSTED
-        || (report.status == CE::Status::ANGLE_OUT_OF_RANGE && report.amount > 0));
-  const bool lacks_cones = report.status == CE::Status::MISSING_CONDITION && options.cone_file.empty();
-  fail(options.input, ": ", CE::message(report),
-       may_be_the_triangulation ? " (--retriangulate never; other values flip edges)" : lacks_cones ? " (--cones FILE)" : "");
+  fail(options.input, ": ", CE::message(report), advice(options, report));
 }
 
 inline std::string list_of_faces(const std::vector<Face>& faces)
