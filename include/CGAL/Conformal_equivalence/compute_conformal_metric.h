@@ -359,7 +359,7 @@ private:
     if(is_success(result.status))
     {
       result.log_scale_factors.resize(triangulation_.number_of_vertices());
-      result.lost_border_edges = twofold.lost_border_edges(triangulation_, result.flips);
+      result.lost_border_edges = twofold.lost_border_edges(triangulation_, result.triangulation, result.flips);
     }
     const auto is_image = [&](Index v) { return v >= triangulation_.number_of_vertices(); };
     for(std::vector<Index>* vertices : {&result.vertices, &result.active_bounds})

@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
+#include <CGAL/Conformal_equivalence/internal/convex_polygon.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/projective_interpolation.h>
@@ -92,6 +93,62 @@ double angle_sum_at(const Conformal_metric<NT>& metric, std::uint32_t v)
     result += 2 * std::atan2(static_cast<double>(triangle.r), static_cast<double>(triangle.tangent[(h + 1) % 3]));
   });
   return result;
+}
+
+// The vertices of a surface among the ones given and those of faces of another triangulation of it, in increasing order. What is no vertex of
+// the surface, but of its mirror image or new, has the larger numbers there.
+template <typename NT>
+std::vector<std::uint32_t> with_vertices_of_faces(const Intrinsic_triangulation<NT>& surface, std::vector<std::uint32_t> vertices,
+                                                  const Intrinsic_triangulation<NT>& t, const std::vector<std::uint32_t>& faces)
+{
+  for(std::uint32_t f : faces)
+    for(std::uint32_t h = 3 * f; h < 3 * f + 3; ++h)
+      vertices.push_back(t.origin(h));
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  vertices.erase(std::lower_bound(vertices.begin(), vertices.end(), surface.number_of_vertices()), vertices.end());
+  return vertices;
+}
+
+// The map of initial u, if there is one, keyed by indices.
+template <typename TriangleMesh, typename NT, typename NamedParameters>
+auto indexed_initial_guess(const Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& np)
+{
+  CGAL_USE(mesh);
+  CGAL_USE(np);
+  if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::conformal_initial_u_t>::value)
+    return parameters::default_values();
+  else
+  {
+    const auto map = parameters::get_parameter(np, internal_np::conformal_initial_u);
+    const auto by_index = [&mesh, map](std::uint32_t v) { return double(get(map, mesh.vertex(v))); };
+    return parameters::initial_log_scale_factor_map(boost::make_function_property_map<std::uint32_t, double>(by_index));
+  }
+}
+
+template <typename TriangleMesh, typename NT>
+Layout_frame indexed_frame(const Imported_mesh<TriangleMesh, NT>&, Layout_frame frame) { return frame; }
+
+template <typename TriangleMesh, typename NT, typename Vertex>
+Pinned_frame<std::uint32_t> indexed_frame(const Imported_mesh<TriangleMesh, NT>& mesh, const Pinned_frame<Vertex>& frame)
+{
+  return {mesh.index_of_vertex(frame.first), frame.first_point, mesh.index_of_vertex(frame.second), frame.second_point};
+}
+
+// The frame of the layout, by indices.
+template <typename TriangleMesh, typename NT, typename NamedParameters>
+auto given_frame(const Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& np)
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  return indexed_frame(mesh, choose_parameter(get_parameter(np, internal_np::conformal_layout_frame), Layout_frame::CANONICAL));
+}
+
+// Exactly for `double`; for other numbers `true` only if that is certain.
+template <typename NT>
+bool is_positive_triangle(const Layout<NT>& layout, std::uint32_t f)
+{
+  return is_left_turn(layout.corner[3 * f], layout.corner[3 * f + 1], layout.corner[3 * f + 2]);
 }
 
 // One flattening: the stages one after the other, each a value that the next takes.
@@ -212,7 +269,7 @@ private:
     {
       Conformal_metric_solver<NT, Solver_traits> solver(
         std::move(mesh.triangulation), choose_parameter<Solver_traits>(get_parameter(np, internal_np::sparse_linear_solver)));
-      metric = std::move(solver).solve(conditions_, Conformal_equivalence::combine_named_parameters(np, initial_guess(np)));
+      metric = std::move(solver).solve(conditions_, Conformal_equivalence::combine_named_parameters(np, indexed_initial_guess(mesh, np)));
       if(metric.is_retriangulated())
         mesh.triangulation = solver.triangulation();
     }
@@ -225,36 +282,9 @@ private:
     report.status = metric.status;
     report.amount = metric.amount;
     if(metric.is_retriangulated()) // its faces are not those of the mesh
-      name_elements(mesh, vertices_of_faces(metric), {}, {}, report);
+      name_elements(mesh, with_vertices_of_faces(mesh.triangulation, metric.vertices, metric.triangulation, metric.faces), {}, {}, report);
     else
       name_elements(mesh, metric.vertices, metric.edges, metric.faces, report);
-  }
-
-  std::vector<Index> vertices_of_faces(const Conformal_metric<NT>& metric) const
-  {
-    std::vector<Index> result = metric.vertices;
-    for(Index f : metric.faces)
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
-        if(metric.triangulation.origin(h) < mesh.triangulation.number_of_vertices()) // and not of the mirror image
-          result.push_back(metric.triangulation.origin(h));
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-  }
-
-  // The map of initial u is keyed by descriptors here, by indices in the solver.
-  template <typename NamedParameters>
-  auto initial_guess(const NamedParameters& np) const
-  {
-    using parameters::get_parameter;
-    if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::conformal_initial_u_t>::value)
-      return parameters::default_values();
-    else
-    {
-      const auto map = get_parameter(np, internal_np::conformal_initial_u);
-      const auto by_index = [this, map](Index v) { return double(get(map, mesh.vertex(v))); };
-      return parameters::initial_log_scale_factor_map(boost::make_function_property_map<Index, double>(by_index));
-    }
   }
 
   // ---- Cut
@@ -343,7 +373,7 @@ private:
   void lay_out(const NamedParameters& np)
   {
     layout = compute_layout(mesh.triangulation, metric, cut,
-                            Conformal_equivalence::combine_named_parameters(np, parameters::layout_frame(frame(np))));
+                            Conformal_equivalence::combine_named_parameters(np, parameters::layout_frame(given_frame(mesh, np))));
     report.layout_length_error = layout.length_error;
     faces_laid_out_.resize(mesh.triangulation.number_of_faces());
     std::iota(faces_laid_out_.begin(), faces_laid_out_.end(), Index(0));
@@ -359,24 +389,8 @@ private:
         faces_laid_out_ = piece.faces;
       return result;
     };
-    layout = internal::lay_out(mesh.triangulation, metric, cut, frame(np), is_wanted);
+    layout = internal::lay_out(mesh.triangulation, metric, cut, given_frame(mesh, np), is_wanted);
     report.layout_length_error = layout.length_error;
-  }
-
-  template <typename NamedParameters>
-  auto frame(const NamedParameters& np) const
-  {
-    using parameters::choose_parameter;
-    using parameters::get_parameter;
-    return by_index(choose_parameter(get_parameter(np, internal_np::conformal_layout_frame), Layout_frame::CANONICAL));
-  }
-
-  Layout_frame by_index(Layout_frame frame) const { return frame; }
-
-  template <typename Vertex>
-  Pinned_frame<Index> by_index(const Pinned_frame<Vertex>& frame) const
-  {
-    return {mesh.index_of_vertex(frame.first), frame.first_point, mesh.index_of_vertex(frame.second), frame.second_point};
   }
 
   // The overlay, with the corners of the mesh where they are in `layout`.
@@ -384,7 +398,7 @@ private:
   void refine(const NamedParameters& np)
   {
     refinement = compute_common_refinement(mesh.triangulation, metric, cut, default_maximum_number_of_crossings,
-                                           parameters::layout_frame(frame(np)));
+                                           parameters::layout_frame(given_frame(mesh, np)));
     report.status = refinement ? report.status : refinement.status;
     report.amount = refinement ? report.amount : refinement.amount;
   }
@@ -396,7 +410,7 @@ private:
   {
     std::vector<Index> flipped;
     for(Index f : faces_laid_out_)
-      if(!is_left_turn(layout.corner[3 * f], layout.corner[3 * f + 1], layout.corner[3 * f + 2]))
+      if(!is_positive_triangle(layout, f))
         flipped.push_back(f);
     return flipped;
   }

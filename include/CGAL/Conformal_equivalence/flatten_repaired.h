@@ -239,8 +239,8 @@ private:
                                             || is_marked_edge(internal_np::edge_is_constrained, np, e); };
     const auto kept = parameters::retriangulation(Retriangulation::NEVER)
                                  .edge_is_constrained_map(boost::make_function_property_map<Index, bool>(is_kept));
-    repaired = repair_locally(mesh.triangulation, conditions_, with_initial_guess(
-                                Conformal_equivalence::combine_named_parameters(np, kept), np));
+    repaired = repair_locally(mesh.triangulation, conditions_, Conformal_equivalence::combine_named_parameters(
+                                Conformal_equivalence::combine_named_parameters(np, kept), indexed_initial_guess(mesh, np)));
     const double seconds = report.statistics.seconds.import;
     report.statistics = repaired.metric.statistics;
     report.statistics.seconds.import = seconds;
@@ -273,31 +273,10 @@ private:
     return input != Intrinsic_triangulation<double>::null_index && is_marked_edge(tag, np, input);
   }
 
-  template <typename SolverParameters, typename NamedParameters>
-  auto with_initial_guess(const SolverParameters& solver_np, const NamedParameters& np) const
-  {
-    CGAL_USE(np);
-    if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::conformal_initial_u_t>::value)
-      return solver_np;
-    else
-    {
-      const auto map = parameters::get_parameter(np, internal_np::conformal_initial_u);
-      const auto by_index = [this, map](Index v) { return double(get(map, mesh.vertex(v))); };
-      return Conformal_equivalence::combine_named_parameters(
-        solver_np, parameters::initial_log_scale_factor_map(boost::make_function_property_map<Index, double>(by_index)));
-    }
-  }
-
   // Names vertices of the mesh: those given, and those of faces that may be none of the mesh.
   void name_vertices_of_faces(const std::vector<Index>& faces, std::vector<Index> vertices, Flattening_report<TriangleMesh>& report) const
   {
-    for(const Index f : faces)
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
-        vertices.push_back(repaired.triangulation().origin(h));
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    vertices.erase(std::lower_bound(vertices.begin(), vertices.end(), mesh.triangulation.number_of_vertices()), vertices.end());
-    name_elements(mesh, vertices, {}, {}, report);
+    name_elements(mesh, with_vertices_of_faces(mesh.triangulation, std::move(vertices), repaired.triangulation(), faces), {}, {}, report);
   }
 
   // ---- Cut and layout
@@ -329,28 +308,16 @@ private:
   template <typename NamedParameters>
   void lay_out(const NamedParameters& np, Flattening_report<TriangleMesh>& report)
   {
-    using parameters::choose_parameter;
-    using parameters::get_parameter;
-    const auto frame = by_index(choose_parameter(get_parameter(np, internal_np::conformal_layout_frame), Layout_frame::CANONICAL));
-    layout = compute_layout(repaired.triangulation(), repaired.metric, cut, parameters::layout_frame(frame));
+    layout = compute_layout(repaired.triangulation(), repaired.metric, cut, parameters::layout_frame(given_frame(mesh, np)));
     report.layout_length_error = layout.length_error;
-  }
-
-  Layout_frame by_index(Layout_frame frame) const { return frame; }
-
-  template <typename Vertex>
-  Pinned_frame<Index> by_index(const Pinned_frame<Vertex>& frame) const
-  {
-    return {mesh.index_of_vertex(frame.first), frame.first_point, mesh.index_of_vertex(frame.second), frame.second_point};
   }
 
   // Every triangle of the layout, as rounded, is exactly positive, or its vertices are named.
   void verify(Flattening_report<TriangleMesh>& report) const
   {
     std::vector<Index> flipped;
-    const auto point = [&](Index h) { return Plane_point(layout.corner[h][0], layout.corner[h][1]); };
     for(Index f = 0; f < repaired.triangulation().number_of_faces(); ++f)
-      if(triangle_orientation({{point(3 * f), point(3 * f + 1), point(3 * f + 2)}}) != CGAL::LEFT_TURN)
+      if(!is_positive_triangle(layout, f))
         flipped.push_back(f);
     if(flipped.empty())
       return;

@@ -97,22 +97,17 @@ public:
     return result;
   }
 
-  // The border edges of the surface that are no edges of the double any more, after these flips: the border has lost their lengths.
+  // The border edges of the surface that are no edges of the double any more, which these flips have made `flipped`: the border has lost their lengths.
   // (All of them, should the crossings of both triangulations be too many to be counted.)
-  std::vector<Index> lost_border_edges(const Intrinsic_triangulation<NT>& t, const std::vector<Index>& flips) const
+  std::vector<Index> lost_border_edges(const Intrinsic_triangulation<NT>& t, const Intrinsic_triangulation<NT>& flipped,
+                                       const std::vector<Index>& flips) const
   {
-    Intrinsic_triangulation<NT> current = triangulation;
-    Normal_coordinates record(current);
-    for(Index e : flips)
-    {
-      record.flip(current, e);
-      current.flip_edge(e, NT(1));
-    }
-    std::vector<char> is_kept(current.number_of_edges(), 0);
+    const Normal_coordinates record = replay_flips(triangulation, flips);
+    std::vector<char> is_kept(flipped.number_of_edges(), 0);
     if(!record.has_overflowed())
-      for(Index e = 0; e < current.number_of_edges(); ++e)
+      for(Index e = 0; e < flipped.number_of_edges(); ++e)
         if(record.coincides(e))
-          is_kept[triangulation.edge(record.input_halfedge(current, current.edge_halfedge(e)))] = 1;
+          is_kept[triangulation.edge(record.input_halfedge(flipped, flipped.edge_halfedge(e)))] = 1;
     std::vector<Index> result;
     for(Index e = 0; e < t.number_of_edges(); ++e)
       if(t.is_border_edge(e) && !is_kept[triangulation.edge(t.edge_halfedge(e))])

@@ -332,6 +332,20 @@ Normal_coordinates::path(const Intrinsic_triangulation<NT>& current, const Start
   }
 }
 
+// The record of the flips of a metric, made by repeating them.
+template <typename NT>
+Normal_coordinates replay_flips(const Intrinsic_triangulation<NT>& input, const std::vector<std::uint32_t>& flips)
+{
+  Intrinsic_triangulation<NT> t = input;
+  Normal_coordinates result(input);
+  for(std::uint32_t e : flips)
+  {
+    result.flip(t, e);
+    t.flip_edge(e, t.length(e));
+  }
+  return result;
+}
+
 } // namespace internal
 } // namespace Conformal_equivalence
 } // namespace CGAL
