@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/wide_residual.h>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -76,6 +77,22 @@ struct Conformal_metric
   Wide_number wide_scaled_length(Index h) const { return internal::wide_length(triangulation, scale_factors, h); }
 };
 
+namespace internal {
+
+// The angle sum at `v` in the metric found.
+template <typename NT>
+double angle_sum_at(const Conformal_metric<NT>& metric, std::uint32_t v)
+{
+  double result = 0;
+  metric.triangulation.for_each_outgoing(v, [&](std::uint32_t h)
+  {
+    const auto triangle = wide_triangle(metric.triangulation, metric.scale_factors, h / 3);
+    result += 2 * std::atan2(static_cast<double>(triangle.r), static_cast<double>(triangle.tangent[(h + 1) % 3]));
+  });
+  return result;
+}
+
+} // namespace internal
 } // namespace Conformal_equivalence
 } // namespace CGAL
 

@@ -295,6 +295,13 @@ struct [[nodiscard]] Flattening_report
   /// flipped or flat; none unless a refinement was asked for
   std::vector<face_descriptor> bent_faces;
 
+  /// on the sphere and the disk: faces whose images, or parts of them, are positive as they were computed, but not with the points
+  /// rounded to the number type of the result
+  std::vector<face_descriptor> rounded_faces;
+
+  /// on the sphere: the sum of the solid angles of all triangles of the polyhedron, 4 pi
+  double solid_angle = 0;
+
   /// @}
 
   /// is `true` iff the result is usable.

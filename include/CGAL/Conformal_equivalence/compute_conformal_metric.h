@@ -176,6 +176,17 @@ public:
     return result;
   }
 
+  /// \cond SKIP_IN_MANUAL
+  // The same with Ptolemy flips from the beginning, of edges inside only: for a triangulation that has come from such flips.
+  template <typename NamedParameters>
+  Metric solve_with_flips(const Conformal_conditions<NT>& conditions, const NamedParameters& np) &&
+  {
+    flips_at_once_ = true;
+    return std::move(*this).solve(conditions, Conformal_equivalence::combine_named_parameters(np,
+      parameters::retriangulation(Retriangulation::WHEN_NEEDED).border_edges(Border_edges::KEPT)));
+  }
+  /// \endcond
+
 private:
   typedef internal::Vertex_vector Vertex_vector;
   typedef internal::Conformal_energy<double, NT> Energy;
@@ -237,7 +248,7 @@ private:
              Border_edges border_edges, const internal::Newton_options& options, Visitor& visitor, Metric& result)
   {
     const internal::Stopwatch stopwatch;
-    if(retriangulation != Retriangulation::ALWAYS)
+    if(retriangulation != Retriangulation::ALWAYS && !flips_at_once_)
     {
       solve_fixed(conditions, initial, options, visitor, result);
       if(retriangulation == Retriangulation::NEVER || !may_be_helped_by_flips(result))
@@ -855,6 +866,7 @@ private:
   std::vector<char> floating_;  // components whose scale nothing determines
   Vertex_vector last_u_;
   bool linear_has_flips_ = false; // the edges of `linear_` are not those of `triangulation_`
+  bool flips_at_once_ = false;    // see `solve_with_flips()`
 };
 
 /// \ingroup PkgConformalEquivalenceSolver

@@ -82,19 +82,6 @@ std::vector<std::uint32_t> interior_cones(const Intrinsic_triangulation<NT>& t, 
   return result;
 }
 
-// The angle sum at `v` in the metric found.
-template <typename NT>
-double angle_sum_at(const Conformal_metric<NT>& metric, std::uint32_t v)
-{
-  double result = 0;
-  metric.triangulation.for_each_outgoing(v, [&](std::uint32_t h)
-  {
-    const auto triangle = wide_triangle(metric.triangulation, metric.scale_factors, h / 3);
-    result += 2 * std::atan2(static_cast<double>(triangle.r), static_cast<double>(triangle.tangent[(h + 1) % 3]));
-  });
-  return result;
-}
-
 // The vertices of a surface among the ones given and those of faces of another triangulation of it, in increasing order. What is no vertex of
 // the surface, but of its mirror image or new, has the larger numbers there.
 template <typename NT>

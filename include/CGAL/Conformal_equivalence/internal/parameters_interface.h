@@ -34,6 +34,11 @@ CGAL_add_named_parameter(conformal_seam_weight_t, conformal_seam_weight, seam_we
 CGAL_add_named_parameter(conformal_seam_is_border_t, conformal_seam_is_border, seam_is_border)
 CGAL_add_named_parameter(conformal_layout_frame_t, conformal_layout_frame, layout_frame)
 
+// the sphere and the disk
+CGAL_add_named_parameter(conformal_vertex_at_infinity_t, conformal_vertex_at_infinity, vertex_at_infinity)
+CGAL_add_named_parameter(conformal_moebius_weights_t, conformal_moebius_weights, moebius_weights)
+CGAL_add_named_parameter(conformal_spherical_refinement_t, conformal_spherical_refinement, spherical_refinement)
+
 // cones that place themselves, seamless textures
 CGAL_add_named_parameter(conformal_number_of_cones_t, conformal_number_of_cones, number_of_cones)
 CGAL_add_named_parameter(conformal_maximum_u_t, conformal_maximum_u, maximum_log_scale_factor)

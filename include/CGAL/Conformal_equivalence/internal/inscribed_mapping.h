@@ -1,0 +1,226 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What the maps to the sphere and to the disk have in common: which apex, which triangulation, and when a result is good.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_INSCRIBED_MAPPING_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_INSCRIBED_MAPPING_H
+
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/ideal_polyhedron.h>
+#include <CGAL/Conformal_equivalence/internal/length_predicates.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/projective_interpolation.h>
+
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+template <typename NT, typename NamedParameters>
+class Inscribed_mapping
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<NT> Triangulation;
+  typedef Ideal_polyhedron<NT> Polyhedron;
+
+public:
+  // `surface`: closed, or with one border; `whole`: the same, or its double. Both are kept as references.
+  Inscribed_mapping(const Triangulation& surface, const Triangulation& whole, const NamedParameters& np)
+    : surface_(surface), whole_(whole), np_(np)
+  {}
+
+  // The polyhedron that `accept(polyhedron)`, which normalizes and judges it, accepts: it returns the faces of the polyhedron that are
+  // not positive. On failure its status says why. `apex`: null_index for the best one.
+  template <typename Accept>
+  Polyhedron operator()(Index apex, Retriangulation retriangulation, Accept accept) const
+  {
+    const Stopwatch stopwatch;
+    Polyhedron result;
+    double discarded = 0;
+    std::size_t discarded_iterations = 0;
+    if(retriangulation != Retriangulation::ALWAYS)
+    {
+      result = on_fixed_triangulation(apex, accept);
+      if(retriangulation == Retriangulation::NEVER || is_success(result.status) || !may_be_helped_by_flips(result.status))
+      {
+        result.statistics.seconds.solve = stopwatch.seconds();
+        return result;
+      }
+      discarded = stopwatch.seconds();
+      discarded_iterations = result.statistics.number_of_iterations;
+    }
+    result = with_flips(apex, retriangulation, accept);
+    result.statistics.seconds.solve = stopwatch.seconds();
+    result.statistics.seconds.discarded = discarded;
+    result.statistics.number_of_discarded_iterations = discarded_iterations;
+    result.statistics.number_of_flips = result.flips.size();
+    result.statistics.conformal_class = retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
+                                                                                   : Conformal_class::GIVEN_TRIANGULATION;
+    return result;
+  }
+
+private:
+  static bool may_be_helped_by_flips(Status status)
+  {
+    return status == Status::DEGENERATE_METRIC || status == Status::ITERATIONS_EXHAUSTED || status == Status::SINGULAR_PROBLEM
+        || status == Status::ANGLE_OUT_OF_RANGE || status == Status::NO_ANGLE_LEFT || status == Status::NOT_INJECTIVE;
+  }
+
+  Symmetry_axis axis(Index apex) const { return surface_.is_border_vertex(apex) ? border_axis(surface_, apex) : Symmetry_axis(); }
+
+  // The same for all vertices of the whole.
+  Symmetry_axis whole_axis(Index apex) const
+  {
+    Symmetry_axis result = axis(apex);
+    if(!result.empty())
+      result.contains.resize(whole_.number_of_vertices(), 0);
+    return result;
+  }
+
+  template <typename Accept>
+  Polyhedron on_fixed_triangulation(Index apex, Accept accept) const
+  {
+    std::vector<Index> apices(1, apex);
+    if(apex == surface_.null_index)
+      apices = best_apices(surface_, 1);
+    if(apices.empty())
+      return without_apex();
+    const Ideal_polyhedron_finder<NT, NamedParameters> find(surface_, np_);
+    return judged(find.on_fixed_triangulation(apices[0], axis(apices[0])), accept);
+  }
+
+  template <typename Accept>
+  Polyhedron with_flips(Index apex, Retriangulation retriangulation, Accept accept) const
+  {
+    Polyhedron result;
+    Triangulation start = whole_;
+    std::vector<Index> flips;
+    if(retriangulation == Retriangulation::ALWAYS && !make_delaunay(start, flips, result))
+      return result;
+    std::vector<Index> apices(1, apex);
+    if(apex == surface_.null_index)
+      apices = best_apices(is_closed() ? start : surface_, 8);
+    const Ideal_polyhedron_finder<NT, NamedParameters> find(whole_, np_);
+    result = without_apex();
+    for(Index a : apices)
+    {
+      result = judged(find.convex(start, flips, a, whole_axis(a)), accept);
+      if(is_success(result.status) || !may_be_helped_by_flips(result.status))
+        return result;
+    }
+    return result;
+  }
+
+  bool is_closed() const { return &surface_ == &whole_; }
+
+  static Polyhedron without_apex()
+  {
+    Polyhedron result;
+    result.status = Status::WRONG_TOPOLOGY;
+    return result;
+  }
+
+  template <typename Accept>
+  static Polyhedron judged(Polyhedron polyhedron, Accept accept)
+  {
+    if(!is_success(polyhedron.status))
+      return polyhedron;
+    const std::vector<Index> flipped = accept(polyhedron);
+    if(is_success(polyhedron.status) && !flipped.empty())
+    {
+      polyhedron.status = Status::NOT_INJECTIVE;
+      polyhedron.faces = flipped;
+    }
+    return polyhedron;
+  }
+
+  // The intrinsic Delaunay triangulation, by Euclidean flips.
+  static bool make_delaunay(Triangulation& t, std::vector<Index>& flips, Polyhedron& result)
+  {
+    for(Index h = 0; h < t.number_of_halfedges(); h += 3)
+      if(!is_triangle_up_to_rounding(t.halfedge_length(h), t.halfedge_length(h + 1), t.halfedge_length(h + 2)))
+        result.faces.push_back(h / 3);
+    if(!result.faces.empty())
+    {
+      result.status = Status::DEGENERATE_METRIC;
+      return false;
+    }
+    std::vector<Index> all(t.number_of_edges());
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      all[e] = e;
+    Delaunay_flipper<NT> flipper(t);
+    flipper.flip_to_delaunay(std::vector<double>(), std::move(all), Flip_rule::EUCLIDEAN, [&](Index e) { flips.push_back(e); });
+    return true;
+  }
+
+  const Triangulation& surface_;
+  const Triangulation& whole_;
+  const NamedParameters& np_;
+};
+
+// Names the faces, or, if these are no faces of the mesh, their vertices.
+template <typename TriangleMesh, typename NT>
+void take_over(const Imported_mesh<TriangleMesh, NT>& mesh, const Ideal_polyhedron<NT>& polyhedron, Flattening_report<TriangleMesh>& report)
+{
+  const Statistics::Seconds seconds = report.statistics.seconds;
+  report.statistics = polyhedron.statistics;
+  report.statistics.seconds.import = seconds.import;
+  report.status = polyhedron.status;
+  report.amount = polyhedron.amount;
+  if(polyhedron.flips.empty())
+    name_elements(mesh, polyhedron.vertices, {}, polyhedron.faces, report);
+  else
+    name_elements(mesh, with_vertices_of_faces(mesh.triangulation, polyhedron.vertices, polyhedron.triangulation, polyhedron.faces), {}, {}, report);
+}
+
+// u and e^{-u} of weights, by vertex of the mesh.
+template <typename TriangleMesh, typename NT, typename Wide, typename NamedParameters>
+void write_weights(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vector<Wide>& weights, const NamedParameters& np)
+{
+  using parameters::get_parameter;
+  using parameters::is_default_parameter;
+  using std::log;
+  const Intrinsic_triangulation<NT>& t = mesh.triangulation;
+  CGAL_USE(np);
+  CGAL_USE(weights);
+  CGAL_USE(t);
+  if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_u_t>::value)
+  {
+    const auto map = get_parameter(np, internal_np::conformal_u);
+    typedef typename boost::property_traits<std::decay_t<decltype(map)> >::value_type Value;
+    for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+      if(!t.is_isolated_vertex(v))
+        put(map, mesh.vertex(v), static_cast<Value>(static_cast<NT>(-Wide(log(weights[v])))));
+  }
+  if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_weight_t>::value)
+  {
+    Wide largest(0);
+    for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+      largest = t.is_isolated_vertex(v) || !(largest < weights[v]) ? largest : weights[v];
+    for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+      if(!t.is_isolated_vertex(v))
+        put(get_parameter(np, internal_np::conformal_weight), mesh.vertex(v),
+            (std::max)(static_cast<double>(Wide(weights[v] / largest)), (std::numeric_limits<double>::min)()));
+  }
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_INSCRIBED_MAPPING_H
