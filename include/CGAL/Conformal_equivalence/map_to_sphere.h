@@ -17,7 +17,6 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/common_refinement.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
-#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/ideal_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/inscribed_mapping.h>
 #include <CGAL/Conformal_equivalence/internal/light_cone.h>
@@ -37,7 +36,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -66,37 +64,7 @@ struct Spherical_refinement
   std::vector<std::array<NT, 3> > points;
 };
 
-/// \ingroup PkgConformalEquivalenceEnums
-/// What has its barycentre in the centre of the sphere, or of the disk, when a Moebius transformation is chosen.
-enum class Moebius_weights
-{
-  VERTICES, ///< the vertices
-  AREAS     ///< the vertices, each with a third of the area of its triangles on the surface given
-};
-
 namespace internal {
-
-template <typename NT>
-std::vector<double> moebius_weights(const Intrinsic_triangulation<NT>& t, Moebius_weights kind)
-{
-  std::vector<double> result(t.number_of_vertices(), 0.);
-  double unit = 0;
-  for(const NT& l : t.lengths())
-    unit = (std::max)(unit, static_cast<double>(l));
-  for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
-  {
-    double& weight = result[t.origin(h)];
-    if(kind == Moebius_weights::VERTICES)
-      weight = 1;
-    else
-    {
-      const Incircle_form<double> triangle(static_cast<double>(t.halfedge_length(t.next(h))) / unit,
-        static_cast<double>(t.halfedge_length(t.previous(h))) / unit, static_cast<double>(t.halfedge_length(h)) / unit);
-      weight += triangle.r * triangle.s;
-    }
-  }
-  return result;
-}
 
 // One map to the sphere: what the user gets is written by the caller.
 template <typename TriangleMesh, typename NT>
@@ -117,36 +85,13 @@ struct Sphere_mapping
   template <typename NamedParameters>
   void run(const NamedParameters& np, bool is_refined)
   {
-    using parameters::choose_parameter;
-    using parameters::get_parameter;
-    auto given_visitor = choose_parameter<Default_visitor>(get_parameter(np, internal_np::visitor));
-    auto& visitor = unwrap(given_visitor);
-    try
-    {
-      Statistics::Seconds& seconds = report.statistics.seconds;
-      double import = 0;
-      timed(import, Stage::IMPORT, visitor, [&] { set_lengths(mesh, np); report = import_report(mesh); });
-      seconds.import = import;
-      if(bool(report) && is_sphere())
-        find(np);
-      if(bool(report))
-        timed(seconds.verify, Stage::VERIFY, visitor, [&] { judge(is_refined); });
-    }
-    catch(const std::bad_alloc&)
-    {
-      report.status = Status::OUT_OF_MEMORY;
-    }
+    run_mapping(mesh, report, np, is_sphere, [&] { find(np); }, [&] { judge(is_refined); });
   }
 
 private:
-  bool is_sphere()
+  static bool is_sphere(const Surface_topology& t)
   {
-    const Surface_topology& t = report.topology;
-    const std::size_t used = t.number_of_vertices - t.number_of_isolated_vertices;
-    if(t.number_of_components == 1 && t.number_of_borders == 0 && t.genus == 0 && used > 3)
-      return true;
-    report.status = Status::WRONG_TOPOLOGY;
-    return false;
+    return t.number_of_components == 1 && t.number_of_borders == 0 && t.genus == 0 && t.number_of_vertices - t.number_of_isolated_vertices > 3;
   }
 
   template <typename NamedParameters>
@@ -155,17 +100,14 @@ private:
     using parameters::choose_parameter;
     using parameters::get_parameter;
     const Intrinsic_triangulation<NT>& t = mesh.triangulation;
-    Index apex = t.null_index;
-    if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_vertex_at_infinity_t>::value)
-      apex = mesh.index_of_vertex(get_parameter(np, internal_np::conformal_vertex_at_infinity));
+    const Index apex = given_apex(mesh, np);
     CGAL_precondition(apex == t.null_index || !t.is_isolated_vertex(apex));
     const std::vector<double> weights = moebius_weights(
       t, choose_parameter(get_parameter(np, internal_np::conformal_moebius_weights), Moebius_weights::VERTICES));
     const Moebius_centering center(weights, false);
 
     const Inscribed_mapping<NT, NamedParameters> mapping(t, t, np);
-    polyhedron = mapping(apex, choose_parameter(get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::WHEN_NEEDED),
-                         [&](Ideal_polyhedron<NT>& found)
+    polyhedron = mapping(apex, given_retriangulation(np), [&](Ideal_polyhedron<NT>& found)
     {
       if(!center(found.vectors))
       {

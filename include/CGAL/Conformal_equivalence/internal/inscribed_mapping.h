@@ -10,6 +10,7 @@
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/ideal_polyhedron.h>
 #include <CGAL/Conformal_equivalence/internal/length_predicates.h>
@@ -24,12 +25,45 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// What has its barycentre in the centre of the sphere, or of the disk, when a Moebius transformation is chosen.
+enum class Moebius_weights
+{
+  VERTICES, ///< the vertices
+  AREAS     ///< the vertices, each with a third of the area of its triangles on the surface given
+};
+
 namespace internal {
+
+template <typename NT>
+std::vector<double> moebius_weights(const Intrinsic_triangulation<NT>& t, Moebius_weights kind)
+{
+  std::vector<double> result(t.number_of_vertices(), 0.);
+  double unit = 0;
+  for(const NT& l : t.lengths())
+    unit = (std::max)(unit, static_cast<double>(l));
+  for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    double& weight = result[t.origin(h)];
+    if(kind == Moebius_weights::VERTICES)
+      weight = 1;
+    else
+    {
+      const Incircle_form<double> triangle(static_cast<double>(t.halfedge_length(t.next(h))) / unit,
+        static_cast<double>(t.halfedge_length(t.previous(h))) / unit, static_cast<double>(t.halfedge_length(h)) / unit);
+      weight += triangle.r * triangle.s;
+    }
+  }
+  return result;
+}
 
 template <typename NT, typename NamedParameters>
 class Inscribed_mapping
@@ -172,6 +206,49 @@ private:
   const Triangulation& whole_;
   const NamedParameters& np_;
 };
+
+// The stages of a map, one after the other, each only if all went well before: lengths; `is_kind()`, whether it is a surface of the right kind;
+// `find()`; `judge()`.
+template <typename TriangleMesh, typename NT, typename NamedParameters, typename Is_kind, typename Find, typename Judge>
+void run_mapping(Imported_mesh<TriangleMesh, NT>& mesh, Flattening_report<TriangleMesh>& report, const NamedParameters& np,
+                 Is_kind is_kind, Find find, Judge judge)
+{
+  auto given_visitor = parameters::choose_parameter<Default_visitor>(parameters::get_parameter(np, internal_np::visitor));
+  auto& visitor = unwrap(given_visitor);
+  try
+  {
+    double seconds = 0;
+    timed(seconds, Stage::IMPORT, visitor, [&] { set_lengths(mesh, np); report = import_report(mesh); });
+    report.statistics.seconds.import = seconds;
+    if(bool(report) && !is_kind(report.topology))
+      report.status = Status::WRONG_TOPOLOGY;
+    if(bool(report))
+      find();
+    if(bool(report))
+      timed(report.statistics.seconds.verify, Stage::VERIFY, visitor, judge);
+  }
+  catch(const std::bad_alloc&)
+  {
+    report.status = Status::OUT_OF_MEMORY;
+  }
+}
+
+// The vertex to be sent to infinity; null_index: any.
+template <typename TriangleMesh, typename NT, typename NamedParameters>
+std::uint32_t given_apex(const Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& np)
+{
+  CGAL_USE(np);
+  if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::conformal_vertex_at_infinity_t>::value)
+    return mesh.triangulation.null_index;
+  else
+    return mesh.index_of_vertex(parameters::get_parameter(np, internal_np::conformal_vertex_at_infinity));
+}
+
+template <typename NamedParameters>
+Retriangulation given_retriangulation(const NamedParameters& np)
+{
+  return parameters::choose_parameter(parameters::get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::WHEN_NEEDED);
+}
 
 // Names the faces, or, if these are no faces of the mesh, their vertices.
 template <typename TriangleMesh, typename NT>

@@ -150,11 +150,12 @@ void transform(const Lorentz_matrix<Number>& m, std::vector<Light_vector<Number>
 // The Moebius transformation after which the weighted barycentre of the points is the origin (B. Springborn, A unique representation of polyhedral types.
 // Centering via Moebius transformations, 2005): it takes to the origin the point x of hyperbolic space for which the sum of all w log(-<x, v>),
 // the distances from horospheres, is least. That is convex along geodesics; with points p of the sphere, its gradient at the
-// origin is -sum w p, its second derivative sum w (1 - p p^T). There is one iff no point has half of the weight.
+// origin is -sum w p, its second derivative sum w (1 - p p^T). There is one iff no point has half of the weight. If all points have a mirror image with
+// respect to the plane y = 0, which need not be given, the transformation keeps that plane.
 class Moebius_centering
 {
 public:
-  // `weight`: by point, 0 for what is no point; if `is_planar`, only transformations that keep the plane y = 0 are allowed, and y does not count
+  // `weight`: by point, 0 for what is no point; if `is_planar`, only transformations that keep the plane y = 0 are allowed, and y does not count: the mirror images are not given
   Moebius_centering(std::vector<double> weight, bool is_planar) : weight_(std::move(weight)), is_planar_(is_planar)
   {
     double sum = 0;
@@ -169,8 +170,8 @@ public:
   bool operator()(std::vector<Light_vector<Number> >& points) const
   {
     const double close = 1e-14, far = 1e-12;
-    for(double w : weight_)
-      if(!(w < 0.5))
+    for(std::size_t i = 0; i < points.size(); ++i)
+      if(!(weight_[i] < 0.5) && (!is_planar_ || points[i][1] == 0))
         return false;
     double last = 2;
     for(int round = 0; round < 5; ++round) // more than one for what is lost when points are rounded

@@ -37,6 +37,7 @@ CGAL_add_named_parameter(conformal_layout_frame_t, conformal_layout_frame, layou
 // the sphere and the disk
 CGAL_add_named_parameter(conformal_vertex_at_infinity_t, conformal_vertex_at_infinity, vertex_at_infinity)
 CGAL_add_named_parameter(conformal_moebius_weights_t, conformal_moebius_weights, moebius_weights)
+CGAL_add_named_parameter(conformal_disk_frame_t, conformal_disk_frame, disk_frame)
 CGAL_add_named_parameter(conformal_spherical_refinement_t, conformal_spherical_refinement, spherical_refinement)
 
 // cones that place themselves, seamless textures
