@@ -383,7 +383,7 @@ void write_sphere(const Sphere_mapping<TriangleMesh, NT>& mapping, VertexPointMa
 ///   \cgalParamNBegin{edge_length_map} \cgalParamDescription{as in `import_mesh()`; then the first vertex becomes (0, 0, 1), and the second one has y = 0 and x > 0} \cgalParamNEnd
 ///   \cgalParamNBegin{mollification} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_at_infinity}
-///     \cgalParamDescription{the vertex that is sent to infinity on the way. The result depends on it by rounding only, if edges are flipped; on a fixed triangulation, too, if that has only one solution}
+///     \cgalParamDescription{the vertex that is sent to infinity on the way; the result depends on it by rounding only. Another one is taken where this one gives no result, but that does}
 ///     \cgalParamType{`boost::graph_traits<TriangleMesh>::%vertex_descriptor`}
 ///     \cgalParamDefault{one with well-shaped triangles around it}
 ///   \cgalParamNEnd

@@ -89,7 +89,7 @@ public:
     std::size_t discarded_iterations = 0;
     if(retriangulation != Retriangulation::ALWAYS)
     {
-      result = on_fixed_triangulation(apex, accept);
+      result = on_fixed_triangulation(apex, retriangulation == Retriangulation::NEVER, accept);
       if(retriangulation == Retriangulation::NEVER || is_success(result.status) || !may_be_helped_by_flips(result.status))
       {
         result.statistics.seconds.solve = stopwatch.seconds();
@@ -126,16 +126,21 @@ private:
     return result;
   }
 
+  // Seen from another vertex, a polyhedron that is not convex may have triangles that are flipped in the plane, and then is not found. So that it does not
+  // depend on the vertex given whether edges will be flipped, the best one decides, unless `is_any_good`.
   template <typename Accept>
-  Polyhedron on_fixed_triangulation(Index apex, Accept accept) const
+  Polyhedron on_fixed_triangulation(Index apex, bool is_any_good, Accept accept) const
   {
-    std::vector<Index> apices(1, apex);
-    if(apex == surface_.null_index)
-      apices = best_apices(surface_, 1);
-    if(apices.empty())
+    const std::vector<Index> best = best_apices(surface_, 1);
+    if(best.empty() && apex == surface_.null_index)
       return without_apex();
     const Ideal_polyhedron_finder<NT, NamedParameters> find(surface_, np_);
-    return judged(find.on_fixed_triangulation(apices[0], axis(apices[0])), accept);
+    const auto found = [&](Index a) { return judged(find.on_fixed_triangulation(a, axis(a)), accept); };
+    Polyhedron result = best.empty() ? without_apex() : found(best[0]);
+    if(apex == surface_.null_index || (!best.empty() && apex == best[0]) || !(is_any_good || is_success(result.status)))
+      return result;
+    Polyhedron other = found(apex);
+    return is_success(other.status) || !is_success(result.status) ? other : result;
   }
 
   template <typename Accept>
