@@ -51,7 +51,10 @@ enum class Status
   STOPPED_BY_VISITOR,    ///< the visitor asked to stop
   OUT_OF_MEMORY,         ///< memory was exhausted
   TOO_MANY_CROSSINGS,    ///< the overlay of two triangulations would have `amount` crossings: more than allowed
-  NOT_REPRESENTABLE      ///< the mesh type cannot hold the result: it would have several edges between the same vertices
+  NOT_REPRESENTABLE,     ///< the mesh type cannot hold the result: it would have several edges between the same vertices
+  TOO_MANY_CONES,        ///< more cones are asked for than there are vertices for them: `amount`
+  BOUND_NOT_MET,         ///< the distortion asked for was not reached, but `amount`: what was found is returned nevertheless
+  NOT_QUANTIZABLE        ///< no such multiples of the angle quantum sum up to what the topology asks for: `amount` (radians)
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -72,10 +75,10 @@ struct Status_entry
 
 // The one table of statuses: what they say, and what CGAL's parameterizers call
 // them. In the order of the enumeration.
-inline const std::array<Status_entry, 22>& status_table()
+inline const std::array<Status_entry, 25>& status_table()
 {
   namespace SMP = Surface_mesh_parameterization;
-  static const std::array<Status_entry, 22> table = {{
+  static const std::array<Status_entry, 25> table = {{
     { Status::OK, "success", SMP::OK },
     { Status::CONVERGED_TO_ROUNDING, "converged to the rounding of the number type", SMP::OK },
     { Status::EMPTY_MESH, "the mesh has no face", SMP::ERROR_EMPTY_MESH },
@@ -97,7 +100,10 @@ inline const std::array<Status_entry, 22>& status_table()
     { Status::STOPPED_BY_VISITOR, "stopped by the visitor", SMP::ERROR_WRONG_PARAMETER },
     { Status::OUT_OF_MEMORY, "out of memory", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM },
     { Status::TOO_MANY_CROSSINGS, "the overlay of the triangulations has too many crossings", SMP::ERROR_WRONG_PARAMETER },
-    { Status::NOT_REPRESENTABLE, "the mesh cannot hold the result", SMP::ERROR_WRONG_PARAMETER }
+    { Status::NOT_REPRESENTABLE, "the mesh cannot hold the result", SMP::ERROR_WRONG_PARAMETER },
+    { Status::TOO_MANY_CONES, "there are not enough vertices for the cones", SMP::ERROR_WRONG_PARAMETER },
+    { Status::BOUND_NOT_MET, "the bound on the distortion was not met", SMP::ERROR_WRONG_PARAMETER },
+    { Status::NOT_QUANTIZABLE, "the cones cannot have multiples of the angle quantum", SMP::ERROR_WRONG_PARAMETER }
   }};
   return table;
 }
@@ -348,7 +354,10 @@ inline void print_amount(std::ostream& out, Status status, double amount)
             << amount << " radians";
       break;
     case Status::ANGLE_OUT_OF_RANGE:    out << ": " << amount << " radians"; break;
-    case Status::TOO_MANY_CROSSINGS:    out << ": " << amount; break;
+    case Status::TOO_MANY_CROSSINGS:
+    case Status::TOO_MANY_CONES:
+    case Status::BOUND_NOT_MET:         out << ": " << amount; break;
+    case Status::NOT_QUANTIZABLE:       out << ": they must sum up to " << amount << " radians"; break;
     default: break;
   }
 }

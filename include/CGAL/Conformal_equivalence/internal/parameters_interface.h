@@ -42,6 +42,8 @@ CGAL_add_named_parameter(conformal_spherical_refinement_t, conformal_spherical_r
 
 // cones that place themselves, seamless textures
 CGAL_add_named_parameter(conformal_number_of_cones_t, conformal_number_of_cones, number_of_cones)
+CGAL_add_named_parameter(conformal_cone_measure_t, conformal_cone_measure, cone_measure)
+CGAL_add_named_parameter(conformal_number_of_sweeps_t, conformal_number_of_sweeps, number_of_sweeps)
 CGAL_add_named_parameter(conformal_maximum_u_t, conformal_maximum_u, maximum_log_scale_factor)
 CGAL_add_named_parameter(conformal_angle_quantum_t, conformal_angle_quantum, angle_quantum)
 CGAL_add_named_parameter(conformal_number_of_tiles_t, conformal_number_of_tiles, number_of_tiles)

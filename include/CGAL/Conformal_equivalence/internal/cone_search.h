@@ -1,0 +1,401 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Where to put cones (section 5.1 of Springborn, Schroeder and Pinkall, 2008).
+//
+// All placements share one factor of the Hessian, that of the first metric. A free cone at c is a force at c, of the unknown
+// strength x_c, that brings u_c to 0: with the response G_c = A^{-1} e_c of u to a unit force at c,
+//
+//     u + d,   d = A^{-1} r + sum of the x_c G_c,   (u + d)_c = 0 at all cones,
+//
+// is a Newton step for the residual r: one solution with the factor, and a dense system with as many unknowns as there are cones. On a
+// closed surface A has the constants for its kernel: one vertex is grounded, the constant is one more unknown, and forces and residuals sum up to
+// zero. As the factor is not renewed the steps converge linearly, which does where cones are only compared.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONE_SEARCH_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONE_SEARCH_H
+
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/energy.h>
+#include <CGAL/Conformal_equivalence/internal/solver/Laplacian_solver.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// By what placements of cones are compared: the less the better.
+enum class Cone_measure
+{
+  MAXIMUM_U,       ///< the largest |u|
+  DIRICHLET_ENERGY ///< the Dirichlet energy of u: how much the scale varies, over the whole surface
+};
+
+namespace internal {
+
+// Cones, with the angles that they are to have; where there are none they are free.
+struct Placement
+{
+  typedef std::uint32_t Index;
+  std::vector<Index> cones;
+  std::vector<double> angles; // radians; empty: all are free
+  Vertex_vector u;
+  double measure = std::numeric_limits<double>::infinity();
+
+  bool is_cone(Index v) const { return std::find(cones.begin(), cones.end(), v) != cones.end(); }
+};
+
+template <typename NT, typename SolverTraits>
+class Cone_search
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<NT> Triangulation;
+
+public:
+  // One component, with natural borders (u = 0) or closed. Keeps a reference.
+  Cone_search(const Triangulation& t, const Surface_components::Component& component, const SolverTraits& traits, Cone_measure measure)
+    : t_(t), energy_(t, true), linear_(traits), kind_(measure),
+      is_closed_(component.number_of_borders == 0), euler_characteristic_(double(component.euler_characteristic()))
+  {
+    std::vector<char> free(t.number_of_vertices(), 0);
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v))
+      {
+        free[v] = 1;
+        inner_.push_back(v);
+      }
+    if(is_closed_)
+    {
+      ground_ = inner_.front();
+      free[ground_] = 0;
+    }
+    linear_.set_edges(t);
+    linear_.set_free(free);
+    energy_.evaluate(Vertex_vector(t.number_of_vertices(), 0.));
+    first_weights_ = energy_.weights();
+  }
+
+  bool factorize() { return linear_.factorize(first_weights_); }
+
+  std::size_t number_of_solves() const { return number_of_solves_; }
+  const std::vector<Index>& candidates() const { return inner_; }
+  bool is_closed() const { return is_closed_; }
+
+  // The u to begin with: without any cone, the curvature of a closed surface spread equally.
+  Placement without_cones(Vertex_vector u)
+  {
+    Placement p;
+    p.u = std::move(u);
+    judge(p);
+    return p;
+  }
+
+  // The angle sum at a vertex that is no cone. On a sphere fewer than three cones cannot be free: then all vertices bear an equal part
+  // of the curvature.
+  double flat_angle(const Placement& p) const
+  {
+    const double turn = 2 * Number_constants<double>::pi();
+    const bool is_spread = is_closed_ && p.cones.size() < (euler_characteristic_ > 0 ? 3u : 1u);
+    return is_spread ? turn - turn * euler_characteristic_ / double(inner_.size()) : turn;
+  }
+
+  // The vertex with the largest measure of distortion that is no cone; null_index if there is none.
+  Index worst_vertex(const Placement& p) const
+  {
+    Index worst = t_.null_index;
+    for(Index v : inner_)
+      if(!p.is_cone(v) && (worst == t_.null_index || std::abs(p.u[v]) > std::abs(p.u[worst])))
+        worst = v;
+    return worst;
+  }
+
+  static void add(Placement& p, Index v) { p.cones.push_back(v); }
+  static void remove(Placement& p, std::size_t i) { p.cones.erase(p.cones.begin() + std::ptrdiff_t(i)); }
+
+  // Some steps of Newton's method with the first factor, until the angles are right up to `close`. Returns whether they came near.
+  bool relax(Placement& p, int most, double close = 1e-3)
+  {
+    double last = std::numeric_limits<double>::infinity();
+    for(int i = 0; i < most; ++i)
+    {
+      if(!step(p))
+        return false;
+      if(last_residual_ <= close)
+        break;
+      if(!(last_residual_ < 4 * last))
+        return false;
+      last = last_residual_;
+    }
+    judge(p);
+    return true;
+  }
+
+  // The measure after the cone number i has moved to v, as far as u depends linearly on forces.
+  double measure_if_moved(const Placement& p, std::size_t i, Index v)
+  {
+    Placement moved = p;
+    moved.cones[i] = v;
+    if(p.angles.empty())
+    {
+      // from one place to the other at the same u, whose angles are right but at the cones
+      Vertex_vector d(p.u.size(), 0.);
+      const Vertex_vector old_force = response(p.cones[i]);
+      const double strength = force_at(p, i);
+      for(std::size_t w = 0; w < d.size(); ++w)
+        d[w] = -strength * old_force[w];
+      if(!correct(moved, -strength, d))
+        return std::numeric_limits<double>::infinity();
+      for(std::size_t w = 0; w < d.size(); ++w)
+        moved.u[w] += d[w];
+    }
+    else
+    {
+      const double strength = p.angles[i] - 2 * Number_constants<double>::pi();
+      const Vertex_vector from = response(p.cones[i]), to = response(v);
+      for(std::size_t w = 0; w < moved.u.size(); ++w)
+        moved.u[w] += strength * (from[w] - to[w]);
+      centre(moved.u);
+    }
+    judge(moved);
+    return moved.measure;
+  }
+
+  // What `p` measures, from its u.
+  void judge(Placement& p) const
+  {
+    p.measure = 0;
+    if(kind_ == Cone_measure::DIRICHLET_ENERGY)
+    {
+      for(std::size_t e = 0; e < first_weights_.size(); ++e)
+      {
+        const Index h = t_.edge_halfedge(Index(e));
+        const double d = p.u[t_.origin(h)] - p.u[t_.target(h)];
+        p.measure += first_weights_[e] * d * d / 4;
+      }
+      return;
+    }
+    for(Index v : inner_)
+      p.measure = (std::max)(p.measure, std::abs(p.u[v]));
+  }
+
+private:
+  // The response of u to a unit force; kept, as long as memory is modest.
+  Vertex_vector response(Index c)
+  {
+    const auto known = response_.find(c);
+    if(known != response_.end())
+      return known->second;
+    if(response_.size() >= (std::max)(std::size_t(16), std::size_t(30000000) / (std::max)(std::size_t(1), std::size_t(t_.number_of_vertices()))))
+      response_.clear();
+    Vertex_vector force(t_.number_of_vertices(), 0.), g(t_.number_of_vertices(), 0.);
+    if(c != ground_)
+    {
+      force[c] = 1;
+      linear_.precondition(force, g);
+      ++number_of_solves_;
+    }
+    return response_.emplace(c, std::move(g)).first->second;
+  }
+
+  // d += forces at the cones and a constant, so that u + d is 0 at the cones. `total`: the sum of all forces that have made d
+  bool correct(const Placement& p, double total, Vertex_vector& d)
+  {
+    const std::size_t k = p.cones.size(), n = k + (is_closed_ ? 1 : 0);
+    if(k == 0)
+    {
+      centre_change(p.u, d);
+      return true;
+    }
+    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(Eigen::Index(n), Eigen::Index(n));
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(Eigen::Index(n));
+    std::vector<Vertex_vector> g;
+    for(Index c : p.cones)
+      g.push_back(response(c));
+    for(std::size_t i = 0; i < k; ++i)
+    {
+      for(std::size_t j = 0; j < k; ++j)
+        m(Eigen::Index(i), Eigen::Index(j)) = g[j][p.cones[i]];
+      b[Eigen::Index(i)] = -p.u[p.cones[i]] - d[p.cones[i]];
+    }
+    if(is_closed_)
+    {
+      for(std::size_t i = 0; i < k; ++i)
+        m(Eigen::Index(i), Eigen::Index(k)) = m(Eigen::Index(k), Eigen::Index(i)) = 1;
+      b[Eigen::Index(k)] = -total;
+    }
+    const Eigen::VectorXd x = m.fullPivLu().solve(b);
+    if(!x.allFinite())
+      return false;
+    for(std::size_t v = 0; v < d.size(); ++v)
+    {
+      for(std::size_t j = 0; j < k; ++j)
+        d[v] += x[Eigen::Index(j)] * g[j][v];
+      if(is_closed_)
+        d[v] += x[Eigen::Index(k)];
+    }
+    return true;
+  }
+
+  // Without a cone that is free nothing determines the scale of a closed surface: the mean of u is 0.
+  void centre(Vertex_vector& u) const
+  {
+    if(!is_closed_)
+      return;
+    double sum = 0;
+    for(Index v : inner_)
+      sum += u[v];
+    for(Index v : inner_)
+      u[v] -= sum / double(inner_.size());
+  }
+
+  void centre_change(const Vertex_vector& u, Vertex_vector& d) const
+  {
+    if(!is_closed_)
+      return;
+    double sum = 0;
+    for(Index v : inner_)
+      sum += u[v] + d[v];
+    for(Index v : inner_)
+      d[v] -= sum / double(inner_.size());
+  }
+
+  // The angle sum that is missing at the cone number i, that is, the force that holds u there.
+  double force_at(const Placement& p, std::size_t i)
+  {
+    energy_.evaluate(p.u);
+    return flat_angle(p) - energy_.angle_sums()[p.cones[i]];
+  }
+
+  bool step(Placement& p)
+  {
+    if(!energy_.evaluate(p.u))
+      return false;
+    const double flat = flat_angle(p);
+    Vertex_vector r(p.u.size(), 0.), d;
+    last_residual_ = 0;
+    double total = 0;
+    for(Index v : inner_)
+      r[v] = energy_.angle_sums()[v] - flat;
+    for(std::size_t i = 0; i < p.cones.size(); ++i)
+      r[p.cones[i]] = p.angles.empty() ? 0 : energy_.angle_sums()[p.cones[i]] - p.angles[i];
+    for(Index v : inner_)
+    {
+      last_residual_ = (std::max)(last_residual_, std::abs(r[v]));
+      total += r[v];
+    }
+    if(!std::isfinite(total) || !linear_.precondition(r, d))
+      return false;
+    ++number_of_solves_;
+    if(!p.angles.empty())
+      centre_change(p.u, d);
+    else if(!correct(p, total, d))
+      return false;
+    for(std::size_t v = 0; v < d.size(); ++v)
+      p.u[v] += d[v];
+    return true;
+  }
+
+  const Triangulation& t_;
+  Conformal_energy<double, NT> energy_;
+  Laplacian_solver<SolverTraits> linear_;
+  const Cone_measure kind_;
+  const bool is_closed_;
+  const double euler_characteristic_;
+  std::vector<Index> inner_;
+  Index ground_ = Triangulation::null_index;
+  std::vector<double> first_weights_;
+  std::map<Index, Vertex_vector> response_;
+  double last_residual_ = 0;
+  std::size_t number_of_solves_ = 0;
+};
+
+// ---- Angles that are multiples of 2 pi / n
+
+// Positive integers k_i with the sum `sum` for which the largest |x_i - k_i| is least, and then as near to the x_i as can be. Empty if there are
+// none. `sum` = 0: any sum. O(n^2 log n).
+//
+// The largest difference is one of |x_i - k| for an integer k: all of these, up to what is needed, are sorted, and the least that allows the sum is
+// found by bisection: with a bound b, each k_i lies between max(1, ceil(x_i - b)) and floor(x_i + b).
+inline std::vector<long> nearest_integers(const std::vector<double>& x, long sum)
+{
+  const std::size_t n = x.size();
+  std::vector<long> result(n);
+  const auto lower = [](double y, double b) { return (std::max)(1l, long(std::ceil(y - b - 1e-12))); };
+  const auto upper = [](double y, double b) { return long(std::floor(y + b + 1e-12)); };
+  if(sum == 0)
+  {
+    for(std::size_t i = 0; i < n; ++i)
+      result[i] = (std::max)(1l, std::lround(x[i]));
+    return result;
+  }
+  if(n == 0 || sum < long(n))
+    return {};
+  const auto is_possible = [&](double b)
+  {
+    long least = 0, most = 0;
+    for(double y : x)
+    {
+      if(upper(y, b) < lower(y, b))
+        return false;
+      least += lower(y, b);
+      most += upper(y, b);
+    }
+    return least <= sum && sum <= most;
+  };
+  double far = 1;
+  while(!is_possible(far))
+    far *= 2;
+  std::vector<double> bounds;
+  for(double y : x)
+    for(long k = (std::max)(1l, long(std::floor(y - far))); double(k) <= y + far; ++k)
+      bounds.push_back(std::abs(y - double(k)));
+  std::sort(bounds.begin(), bounds.end());
+  std::size_t begin = 0, end = bounds.size(); // the first one that is possible
+  while(begin < end)
+  {
+    const std::size_t middle = (begin + end) / 2;
+    if(is_possible(bounds[middle]))
+      end = middle;
+    else
+      begin = middle + 1;
+  }
+  const double b = begin < bounds.size() ? bounds[begin] : far;
+
+  // from the nearest ones, those that cost least are moved by one until the sum is right
+  long missing = sum;
+  for(std::size_t i = 0; i < n; ++i)
+  {
+    result[i] = (std::min)((std::max)(std::lround(x[i]), lower(x[i], b)), upper(x[i], b));
+    missing -= result[i];
+  }
+  for(; missing != 0; missing += missing > 0 ? -1 : 1)
+  {
+    const long by = missing > 0 ? 1 : -1;
+    std::size_t best = n;
+    const auto cost = [&](std::size_t i) { return std::abs(double(result[i] + by) - x[i]) - std::abs(double(result[i]) - x[i]); };
+    for(std::size_t i = 0; i < n; ++i)
+      if(result[i] + by >= lower(x[i], b) && result[i] + by <= upper(x[i], b) && (best == n || cost(i) < cost(best)))
+        best = i;
+    if(best == n)
+      return {};
+    result[best] += by;
+  }
+  return result;
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONE_SEARCH_H
