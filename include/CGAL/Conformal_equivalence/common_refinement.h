@@ -26,18 +26,16 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Box_tree.h>
 #include <CGAL/Conformal_equivalence/internal/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/convex_polygon.h>
 #include <CGAL/Conformal_equivalence/internal/double.h>
-#include <CGAL/Conformal_equivalence/internal/flipped_development.h>
-#include <CGAL/Conformal_equivalence/internal/layout_frames.h>
 #include <CGAL/Conformal_equivalence/internal/normal_coordinates.h>
 #include <CGAL/Conformal_equivalence/internal/overlay.h>
-#include <CGAL/Conformal_equivalence/internal/pieces.h>
-#include <CGAL/Conformal_equivalence/internal/wedges.h>
+#include <CGAL/Conformal_equivalence/internal/overlay_layout.h>
+#include <CGAL/Conformal_equivalence/internal/projective_cell.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -146,12 +144,6 @@ constexpr std::uint64_t default_maximum_number_of_crossings = 10000000;
 
 namespace internal {
 
-// What the surface given is in the triangulation of the metric: all of it, or half of the double.
-struct Surface_size
-{
-  std::uint32_t vertices, edges, faces;
-};
-
 template <typename NT>
 class Refinement_builder
 {
@@ -165,7 +157,7 @@ class Refinement_builder
 public:
   // `input` is what the metric was made of by flips: the surface given, or its double
   Refinement_builder(const Intrinsic_triangulation<NT>& input, const Metric& metric, const Cut_graph& cut, Surface_size size)
-    : input_(input), metric_(metric), cut_(cut), size_(size), wedges_(find_wedges(input, cut))
+    : input_(input), metric_(metric), cut_(cut), size_(size)
   {}
 
   template <typename Frame>
@@ -179,58 +171,15 @@ public:
       result_.status = Status::TOO_MANY_CROSSINGS;
       return std::move(result_);
     }
-    find_positions(frame);
-    const std::vector<Wide> weights = vertex_weights();
+    const Overlay_layout<NT> layout(input_, metric_, cut_, size_, frame);
+    const std::vector<Wide> weights = vertex_weights(metric_);
     Overlay<NT> overlay(input_, metric_, record, weights);
     write_vertices(weights, overlay.crossings);
-    write_faces(overlay);
+    write_faces(layout, overlay);
     return std::move(result_);
   }
 
 private:
-  // Where the corners of the input lie, not yet rounded: as in `compute_layout()`.
-  template <typename Frame>
-  void find_positions(const Frame& frame)
-  {
-    std::vector<Piece> pieces = find_pieces(input_, cut_, wedges_);
-    pieces.erase(std::remove_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.faces.front() >= size_.faces; }),
-                 pieces.end());
-    const auto develop = [&](auto development)
-    {
-      for(const Piece& piece : pieces)
-        development(piece.central_face);
-      position_ = std::move(development.position);
-    };
-    if(metric_.is_retriangulated())
-      develop(Flipped_development<NT>(input_, metric_, cut_, wedges_));
-    else
-      develop(Development<NT>(metric_, cut_, wedges_));
-    move_to_frame(input_, wedges_.of_corner, pieces, frame, position_);
-  }
-
-  // e^{-u}, scaled to a maximum of 1, and not below what can be divided by
-  std::vector<Wide> vertex_weights() const
-  {
-    const Intrinsic_triangulation<NT>& t = metric_.triangulation;
-    const std::vector<Wide>& s = metric_.scale_factors;
-    bool is_first = true;
-    Wide least(1);
-    for(Index v = 0; v < t.number_of_vertices(); ++v)
-      if(!t.is_isolated_vertex(v) && (is_first || s[v] < least))
-      {
-        least = s[v];
-        is_first = false;
-      }
-    std::vector<Wide> weights(t.number_of_vertices(), Wide(1));
-    for(Index v = 0; v < t.number_of_vertices(); ++v)
-      if(!t.is_isolated_vertex(v))
-      {
-        const Wide r = least / s[v];
-        weights[v] = (std::max)(Wide(r * r), Wide(1e-280));
-      }
-    return weights;
-  }
-
   // Vertices of the input, and the crossings on its edges.
   void write_vertices(const std::vector<Wide>& weights, const std::vector<Crossing>& crossings)
   {
@@ -253,7 +202,7 @@ private:
     }
   }
 
-  void write_faces(Overlay<NT>& overlay)
+  void write_faces(const Overlay_layout<NT>& layout, Overlay<NT>& overlay)
   {
     result_.first_corner.push_back(0);
     overlay.for_each_cell([&](Index flat_face, const std::vector<Overlay_corner>& cell)
@@ -268,7 +217,7 @@ private:
       polygon_.clear();
       rounded_.clear();
       for(std::size_t i = 0; i < cell.size(); ++i)
-        write_corner(overlay.crossings, cell, i);
+        write_corner(layout, overlay.crossings, cell, i);
       judge_face();
       result_.input_face.push_back(input_face);
       result_.flat_face.push_back(flat_face);
@@ -276,7 +225,8 @@ private:
     });
   }
 
-  void write_corner(const std::vector<Crossing>& crossings, const std::vector<Overlay_corner>& cell, std::size_t i)
+  void write_corner(const Overlay_layout<NT>& layout, const std::vector<Crossing>& crossings, const std::vector<Overlay_corner>& cell,
+                    std::size_t i)
   {
     const Overlay_corner& corner = cell[i];
     const Index before = cell[(i + cell.size() - 1) % cell.size()].input_halfedge, after = corner.input_halfedge;
@@ -284,7 +234,7 @@ private:
     if(corner.is_crossing)
     {
       const Crossing& x = crossings[corner.index];
-      z = place(x, after != result_.null_index ? after : before);
+      z = layout.place(x, after != result_.null_index ? after : before);
       result_.corner_vertex.push_back(vertex_of_crossing_[corner.index]);
     }
     else
@@ -292,23 +242,13 @@ private:
       // without an input edge at this corner, the current edge leads across the opposite side of the input triangle
       const Index h = after != result_.null_index ? input_.previous(after) :
                       before != result_.null_index ? before : input_.next(cell[(i + 1) % cell.size()].input_halfedge);
-      z = position_[wedges_.of_corner[h]];
+      z = layout.target(h);
       result_.corner_vertex.push_back(input_.target(h));
     }
     polygon_.push_back({{z.re, z.im}});
-    rounded_.push_back({{static_cast<NT>(z.re), static_cast<NT>(z.im)}});
+    rounded_.push_back(plane_point<NT>(z));
     result_.corner_uv.push_back(rounded_.back());
     result_.corner_halfedge.push_back(after);
-  }
-
-  // Where the crossing lies in the input face on the left of `side`, one of the two halfedges of its edge.
-  Complex place(const Crossing& x, Index side) const
-  {
-    const bool is_first = side == input_.edge_halfedge(x.input_edge);
-    const Complex &p = position_[wedges_.of_corner[is_first ? input_.previous(side) : side]],
-                  &q = position_[wedges_.of_corner[is_first ? side : input_.previous(side)]];
-    const Complex moved = x.ratio * Complex{Wide(q.re - p.re), Wide(q.im - p.im)};
-    return {p.re + moved.re, p.im + moved.im};
   }
 
   // Of the face that is being written.
@@ -329,8 +269,6 @@ private:
   const Metric& metric_;
   const Cut_graph& cut_;
   const Surface_size size_;
-  const Wedges wedges_;
-  std::vector<Complex> position_;           // by wedge
   std::vector<Index> vertex_of_crossing_;
   std::vector<Wide_point> polygon_;         // the face that is being written
   std::vector<std::array<NT, 2> > rounded_;
@@ -559,41 +497,6 @@ std::array<NT, 3> input_barycentric(const Intrinsic_triangulation<NT>& input, co
   return result;
 }
 
-namespace internal {
-
-template <typename NT>
-NT determinant_of_columns(const std::array<NT, 3>& a, const std::array<NT, 3>& b, const std::array<NT, 3>& c)
-{
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-// Which of some triangles holds a point: the one in which the least barycentric coordinate is the greatest.
-template <typename NT>
-struct Best_triangle
-{
-  std::array<std::size_t, 3> corners; // numbers in the refinement
-  std::array<NT, 3> coordinates;      // barycentric, of the point
-  std::uint32_t face;
-  bool is_found = false;
-
-  // The determinants are those of the point with the sides opposite to the corners.
-  void offer(std::uint32_t f, const std::array<std::size_t, 3>& triangle, const std::array<NT, 3>& determinants)
-  {
-    const NT sum = determinants[0] + determinants[1] + determinants[2];
-    if(!(sum > 0))
-      return;
-    const std::array<NT, 3> x = {{ determinants[0] / sum, determinants[1] / sum, determinants[2] / sum }};
-    if(is_found && !(least(coordinates) < least(x)))
-      return;
-    *this = Best_triangle{triangle, x, f, true};
-  }
-
-private:
-  static NT least(const std::array<NT, 3>& x) { return (std::min)(x[0], (std::min)(x[1], x[2])); }
-};
-
-} // namespace internal
-
 /// \ingroup PkgConformalEquivalenceLayout
 ///
 /// answers where a point of the input surface lies in the layout, and which points of the surface lie at a point of the
@@ -642,29 +545,12 @@ public:
   /// \pre `b` has entries >= 0, not all 0; they need not sum up to 1
   Layout_point layout_point(Index input_face, const std::array<NT, 3>& b) const
   {
-    internal::Best_triangle<NT> best;
+    Cells cells;
     for(std::size_t i = first_part_[input_face]; i < first_part_[input_face + 1]; ++i)
-      for_each_triangle(part_[i], [&](const std::array<std::size_t, 3>& corners)
-      {
-        const std::array<std::array<NT, 3>, 3> p = places(part_[i], corners);
-        best.offer(part_[i], corners, {{ internal::determinant_of_columns(b, p[1], p[2]), internal::determinant_of_columns(b, p[2], p[0]),
-                                         internal::determinant_of_columns(b, p[0], p[1]) }});
-      });
-    if(!best.is_found) // a face all parts of which are degenerate, or no barycentric coordinates
-    {
-      const Index f = part_[first_part_[input_face]];
-      return { refinement_->corner_uv[refinement_->first_corner[f]], f };
-    }
-    const std::array<NT, 3> w = weights(best.corners);
-    NT x(0), y(0), sum(0);
-    for(std::size_t k = 0; k < 3; ++k)
-    {
-      const NT a = best.coordinates[k] * w[k];
-      x += a * refinement_->corner_uv[best.corners[k]][0];
-      y += a * refinement_->corner_uv[best.corners[k]][1];
-      sum += a;
-    }
-    return {{{ x / sum, y / sum }}, best.face};
+      add_cell(part_[i], cells);
+    const auto point = cells.at(b);
+    const std::array<NT, 3> image = point.image();
+    return {{{ image[0], image[1] }}, part_[first_part_[input_face] + point.cell]};
   }
 
   /// returns the points of the surface that lie at `uv`: none outside of the layout, several where it covers itself, and one for each face on
@@ -675,14 +561,17 @@ public:
     std::vector<Surface_point> result;
     tree_.for_each_around(static_cast<double>(uv[0]), static_cast<double>(uv[1]), [&](Index f)
     {
-      if(contains(f, uv))
-        result.push_back(surface_point(f, uv));
+      Cells cell;
+      add_cell(f, cell);
+      cell.for_each_at(uv, [&](const auto& point) { result.push_back({ refinement_->input_face[f], point.preimage(), f }); });
     });
     std::sort(result.begin(), result.end(), [](const Surface_point& a, const Surface_point& b) { return a.face < b.face; });
     return result;
   }
 
 private:
+  typedef internal::Projective_cells<NT, NT> Cells;
+
   static std::vector<std::array<double, 4> > boxes(const Common_refinement<NT>& r)
   {
     std::vector<std::array<double, 4> > result;
@@ -702,68 +591,12 @@ private:
     return result;
   }
 
-  template <typename Visit>
-  void for_each_triangle(Index f, Visit visit) const
-  {
-    const std::size_t first = refinement_->first_corner[f];
-    for(std::size_t c = first + 1; c + 1 < refinement_->first_corner[f + 1]; ++c)
-      visit(std::array<std::size_t, 3>{{ first, c, c + 1 }});
-  }
-
-  std::array<std::array<NT, 3>, 3> places(Index f, const std::array<std::size_t, 3>& corners) const
-  {
-    return {{ input_barycentric(*input_, *refinement_, f, corners[0]), input_barycentric(*input_, *refinement_, f, corners[1]),
-              input_barycentric(*input_, *refinement_, f, corners[2]) }};
-  }
-
-  std::array<NT, 3> weights(const std::array<std::size_t, 3>& corners) const
+  void add_cell(Index f, Cells& cells) const
   {
     const Common_refinement<NT>& r = *refinement_;
-    return {{ r.weights[r.corner_vertex[corners[0]]], r.weights[r.corner_vertex[corners[1]]], r.weights[r.corner_vertex[corners[2]]] }};
-  }
-
-  bool contains(Index f, const std::array<NT, 2>& uv) const
-  {
-    const std::vector<std::array<NT, 2> >& p = refinement_->corner_uv;
-    const std::size_t first = refinement_->first_corner[f], last = refinement_->first_corner[f + 1] - 1;
-    for(std::size_t c = first; c <= last; ++c)
-      if(internal::is_left_turn(p[c == last ? first : c + 1], p[c], uv))
-        return false;
-    return true;
-  }
-
-  Surface_point surface_point(Index f, const std::array<NT, 2>& uv) const
-  {
-    internal::Best_triangle<NT> best;
-    for_each_triangle(f, [&](const std::array<std::size_t, 3>& corners)
-    {
-      const std::vector<std::array<NT, 2> >& p = refinement_->corner_uv;
-      const auto area = [&](std::size_t i, std::size_t j)
-      {
-        return NT((p[i][0] - uv[0]) * (p[j][1] - uv[1]) - (p[i][1] - uv[1]) * (p[j][0] - uv[0]));
-      };
-      best.offer(f, corners, {{ area(corners[1], corners[2]), area(corners[2], corners[0]), area(corners[0], corners[1]) }});
-    });
-    Surface_point result = { refinement_->input_face[f], {{ NT(0), NT(0), NT(0) }}, f };
-    if(!best.is_found) // a face without area
-    {
-      result.barycentric = input_barycentric(*input_, *refinement_, f, refinement_->first_corner[f]);
-      return result;
-    }
-    const std::array<NT, 3> w = weights(best.corners);
-    const std::array<std::array<NT, 3>, 3> p = places(f, best.corners);
-    const NT least = (std::min)(w[0], (std::min)(w[1], w[2]));
-    NT sum(0);
-    for(std::size_t k = 0; k < 3; ++k)
-    {
-      const NT a = best.coordinates[k] * (least / w[k]);
-      sum += a;
-      for(std::size_t i = 0; i < 3; ++i)
-        result.barycentric[i] += a * p[k][i];
-    }
-    for(NT& x : result.barycentric)
-      x /= sum;
-    return result;
+    for(std::size_t c = r.first_corner[f]; c < r.first_corner[f + 1]; ++c)
+      cells.add_corner({ input_barycentric(*input_, r, f, c), r.corner_uv[c], r.weights[r.corner_vertex[c]] });
+    cells.end_cell();
   }
 
   const Intrinsic_triangulation<NT>* input_;

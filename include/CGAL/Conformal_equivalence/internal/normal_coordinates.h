@@ -146,6 +146,10 @@ public:
   template <typename NT>
   Path path(const Intrinsic_triangulation<NT>& current, const Start& start) const;
 
+  // The number of its crossings, or `limit` if there are more. O(min(crossings, limit)), and no memory.
+  template <typename NT>
+  std::uint64_t length_of_path(const Intrinsic_triangulation<NT>& current, const Start& start, std::uint64_t limit) const;
+
 private:
   typedef std::int64_t Count;
 
@@ -174,6 +178,18 @@ private:
   {
     return Count(coincides(t.edge(h))) + arcs_from_origin(t, h);
   }
+
+  // Whether the input halfedge that begins there runs along a current one.
+  template <typename NT>
+  bool is_along(const Intrinsic_triangulation<NT>& t, const Start& start) const
+  {
+    return start.position == 0 && coincides(t.edge(start.first));
+  }
+
+  // Calls `visit(c, strand)` for the crossings of a path, as in `Path`, as long as it returns `true`.
+  // \pre !is_along(current, start)
+  template <typename NT, typename Visit>
+  void follow(const Intrinsic_triangulation<NT>& current, const Start& start, Visit visit) const;
 
   // The number of input edges that begin or end at `v`.
   Count degree(Index v) const { return Count(offset_[v + 1] - offset_[v]); }
@@ -299,24 +315,17 @@ Normal_coordinates::starts(const Intrinsic_triangulation<NT>& current) const
 //          / /   |  \  \        the last ones go around j, and leave through next(g) at the same distance from j.
 //         i-|----|---|- j       .
 //           0 .. g ..           .
-template <typename NT>
-Normal_coordinates::Path
-Normal_coordinates::path(const Intrinsic_triangulation<NT>& current, const Start& start) const
+template <typename NT, typename Visit>
+void Normal_coordinates::follow(const Intrinsic_triangulation<NT>& current, const Start& start, Visit visit) const
 {
-  CGAL_precondition(!has_overflowed_);
-  Path result{ start.first, false, {}, {} };
-  const bool along = coincides(current.edge(start.first));
-  result.is_edge = along && start.position == 0;
-  if(result.is_edge)
-    return result;
-
+  CGAL_precondition(!has_overflowed_ && !is_along(current, start));
   Index c = current.next(start.first); // the side opposite to where the path begins
-  Count strand = arcs_around_origin(current, c) + start.position - Count(along);
+  Count strand = arcs_around_origin(current, c) + start.position - Count(coincides(current.edge(start.first)));
   while(true)
   {
     CGAL_assertion(strand >= 0 && strand < count(current, c));
-    result.crossed.push_back(c);
-    result.strand.push_back(std::uint32_t(strand));
+    if(!visit(c, std::uint32_t(strand)))
+      return;
 
     const Index g = current.twin(c), k = current.previous(g);
     const Count from_i = count(current, g) - 1 - strand, around_i = arcs_around_origin(current, g);
@@ -326,10 +335,36 @@ Normal_coordinates::path(const Intrinsic_triangulation<NT>& current, const Start
       strand = count(current, c) - 1 - from_i;
     }
     else if(from_i < around_i + arcs_from_origin(current, k))
-      return result;
+      return;
     else
       c = current.next(g); // and as far from j as before, where it is counted from j
   }
+}
+
+template <typename NT>
+Normal_coordinates::Path
+Normal_coordinates::path(const Intrinsic_triangulation<NT>& current, const Start& start) const
+{
+  CGAL_precondition(!has_overflowed_);
+  Path result{ start.first, is_along(current, start), {}, {} };
+  if(!result.is_edge)
+    follow(current, start, [&](Index c, std::uint32_t strand)
+    {
+      result.crossed.push_back(c);
+      result.strand.push_back(strand);
+      return true;
+    });
+  return result;
+}
+
+template <typename NT>
+std::uint64_t Normal_coordinates::length_of_path(const Intrinsic_triangulation<NT>& current, const Start& start, std::uint64_t limit) const
+{
+  CGAL_precondition(!has_overflowed_);
+  std::uint64_t result = 0;
+  if(limit > 0 && !is_along(current, start))
+    follow(current, start, [&](Index, std::uint32_t) { return ++result < limit; });
+  return result;
 }
 
 // The record of the flips of a metric, made by repeating them.

@@ -211,6 +211,147 @@ private:
   Complex target_;
 };
 
+// The weights e^{-u} of the vertices, scaled to a maximum of 1, and not below what can be divided by; 1 for isolated vertices.
+template <typename NT>
+std::vector<typename Conformal_metric<NT>::Wide_number> vertex_weights(const Conformal_metric<NT>& metric)
+{
+  typedef typename Conformal_metric<NT>::Wide_number Wide;
+  const Intrinsic_triangulation<NT>& t = metric.triangulation;
+  const std::vector<Wide>& s = metric.scale_factors;
+  bool is_first = true;
+  Wide least(1);
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_isolated_vertex(v) && (is_first || s[v] < least))
+    {
+      least = s[v];
+      is_first = false;
+    }
+  std::vector<Wide> weights(t.number_of_vertices(), Wide(1));
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_isolated_vertex(v))
+    {
+      const Wide r = least / s[v];
+      weights[v] = (std::max)(Wide(r * r), Wide(1e-280));
+    }
+  return weights;
+}
+
+// A triangle of one of the two triangulations, cut into cells by the edges of the other. How often its sides are crossed tells how the
+// arcs between the crossings run (normal_coordinates.h). Around the triangle, counterclockwise, there are its corner 0, the
+// crossings of its side 0, its corner 1, and so on: the places 0, 1, 2, ...
+class Triangle_cells
+{
+public:
+  // From one place to another: along a side of the triangle, or along an arc inside.
+  struct Segment
+  {
+    std::size_t from, to;
+    bool is_on_side;
+  };
+
+  // \param crossings by side
+  void cut(const std::array<std::size_t, 3>& crossings)
+  {
+    const std::array<std::size_t, 3>& n = crossings;
+    std::array<std::size_t, 3> around;
+    std::size_t size = 0;
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      corner_[k] = size;
+      size += 1 + n[k];
+    }
+    other_end_.assign(size, 0);
+    is_done_.assign(size, 0);
+    for(std::size_t k = 0; k < 3; ++k) // around the corner k, from side k to the previous one
+    {
+      const std::size_t previous = (k + 2) % 3, a = n[k], b = n[previous], opposite = n[(k + 1) % 3];
+      around[k] = (std::min)({a, b, a + b > opposite ? (a + b - opposite) / 2 : 0});
+      for(std::size_t s = 0; s < around[k]; ++s)
+      {
+        const std::size_t p = corner_[k] + 1 + s, q = corner_[previous] + b - s;
+        other_end_[p] = q;
+        other_end_[q] = p;
+      }
+    }
+    for(std::size_t k = 0; k < 3; ++k) // from the corner k, across the opposite side
+    {
+      const std::size_t opposite = (k + 1) % 3, sides = n[k] + n[(k + 2) % 3];
+      fan_size_[k] = n[opposite] > sides ? n[opposite] - sides : 0;
+      fan_begin_[k] = corner_[opposite] + 1 + around[opposite];
+      for(std::size_t s = 0; s < fan_size_[k]; ++s)
+        other_end_[fan_begin_[k] + s] = corner_[k];
+    }
+  }
+
+  // Calls `visit(cell)` for every cell, a vector of segments, counterclockwise. Every cell has a part of a side.
+  template <typename Visit>
+  void for_each(Visit visit)
+  {
+    for(std::size_t p = 0; p < is_done_.size(); ++p)
+      if(!is_done_[p])
+      {
+        walk_around_cell(p);
+        visit(cell_);
+      }
+  }
+
+  // The side that the place is on; a corner is on the side that begins there.
+  std::size_t side(std::size_t place) const { return place >= corner_[2] ? 2 : place >= corner_[1] ? 1 : 0; }
+
+  // How many places of its side come before it: 0 for a corner, 1 for the first crossing.
+  std::size_t position(std::size_t place) const { return place - corner_[side(place)]; }
+
+  bool is_corner(std::size_t place) const { return position(place) == 0; }
+
+private:
+  // From the place p along the side of the triangle, then always along the leftmost way.
+  void walk_around_cell(std::size_t p)
+  {
+    cell_.clear();
+    const std::size_t begin = p, end = is_done_.size();
+    bool is_on_side = true;
+    do
+    {
+      const std::size_t q = is_on_side ? (p + 1) % end : next_place_;
+      cell_.push_back({p, q, is_on_side});
+      if(is_on_side)
+        is_done_[p] = 1;
+      is_on_side = !find_next(p, q, is_on_side);
+      p = q;
+    }
+    while(p != begin || !is_on_side);
+  }
+
+  // Arrived at q from p: is the next segment an arc, to `next_place_`? Around q, counterclockwise, there are the next place, the
+  // ends of its arcs, and the previous place.
+  bool find_next(std::size_t p, std::size_t q, bool is_on_side)
+  {
+    const std::size_t k = side(q);
+    if(q != corner_[k])
+    {
+      next_place_ = other_end_[q];
+      return is_on_side;
+    }
+    if(is_on_side && fan_size_[k] > 0)
+    {
+      next_place_ = fan_begin_[k] + fan_size_[k] - 1;
+      return true;
+    }
+    if(!is_on_side && p > fan_begin_[k])
+    {
+      next_place_ = p - 1;
+      return true;
+    }
+    return false;
+  }
+
+  std::array<std::size_t, 3> corner_, fan_begin_, fan_size_;
+  std::vector<std::size_t> other_end_; // by place
+  std::vector<char> is_done_;          // by place: whether the cell on the left of the segment to the next place was visited
+  std::vector<Segment> cell_;
+  std::size_t next_place_ = 0;
+};
+
 // All crossings, and the cells between the edges. Cells are convex polygons in each of the two triangles that they belong to.
 template <typename NT>
 class Overlay
@@ -252,13 +393,14 @@ public:
   {
     for(Index f = 0; f < t_.number_of_faces(); ++f)
     {
-      draw_arcs(f);
-      for(std::size_t p = 0; p < is_done_.size(); ++p)
-        if(!is_done_[p])
-        {
-          walk_around_cell(f, p);
-          visit(f, cell_);
-        }
+      triangle_.cut({{ record_.crossings(t_.edge(3 * f)), record_.crossings(t_.edge(3 * f + 1)), record_.crossings(t_.edge(3 * f + 2)) }});
+      triangle_.for_each([&](const std::vector<Triangle_cells::Segment>& segments)
+      {
+        cell_.clear();
+        for(const Triangle_cells::Segment& segment : segments)
+          cell_.push_back(corner(f, segment));
+        visit(f, cell_);
+      });
     }
   }
 
@@ -270,100 +412,26 @@ private:
     return h == t_.edge_halfedge(e) ? first_[e] + s : first_[e + 1] - 1 - s;
   }
 
-  // Around the triangle f, counterclockwise, there are its corner 0, the crossings of its side 0, its corner 1, and so on: the
-  // places 0, 1, 2, ... Arcs join places, as in normal_coordinates.h:
-  void draw_arcs(Index f)
+  // The same for a place on the border of the triangle f.
+  std::size_t crossing_at(Index f, std::size_t place) const
   {
-    std::array<std::size_t, 3> n, around;
-    std::size_t size = 0;
-    for(std::size_t k = 0; k < 3; ++k)
-    {
-      n[k] = record_.crossings(t_.edge(3 * f + Index(k)));
-      corner_[k] = size;
-      size += 1 + n[k];
-    }
-    other_end_.assign(size, 0);
-    is_done_.assign(size, 0);
-    for(std::size_t k = 0; k < 3; ++k) // around the corner k, from side k to the previous one
-    {
-      const std::size_t previous = (k + 2) % 3, a = n[k], b = n[previous], opposite = n[(k + 1) % 3];
-      around[k] = (std::min)({a, b, a + b > opposite ? (a + b - opposite) / 2 : 0});
-      for(std::size_t s = 0; s < around[k]; ++s)
-      {
-        const std::size_t p = corner_[k] + 1 + s, q = corner_[previous] + b - s;
-        other_end_[p] = q;
-        other_end_[q] = p;
-      }
-    }
-    for(std::size_t k = 0; k < 3; ++k) // from the corner k, across the opposite side
-    {
-      const std::size_t opposite = (k + 1) % 3, sides = n[k] + n[(k + 2) % 3];
-      fan_size_[k] = n[opposite] > sides ? n[opposite] - sides : 0;
-      fan_begin_[k] = corner_[opposite] + 1 + around[opposite];
-      for(std::size_t s = 0; s < fan_size_[k]; ++s)
-        other_end_[fan_begin_[k] + s] = corner_[k];
-    }
+    return number_of_crossing(3 * f + Index(triangle_.side(place)), triangle_.position(place) - 1);
   }
 
-  std::size_t side_of(std::size_t place) const { return place >= corner_[2] ? 2 : place >= corner_[1] ? 1 : 0; }
-
-  // From the place p along the side of the triangle, then always along the leftmost way.
-  void walk_around_cell(Index f, std::size_t p)
+  Overlay_corner corner(Index f, const Triangle_cells::Segment& segment) const
   {
-    cell_.clear();
-    const std::size_t begin = p, end = is_done_.size();
-    bool along_side = true;
-    do
-    {
-      const std::size_t q = along_side ? (p + 1) % end : next_place_;
-      cell_.push_back(corner(f, p, q, along_side));
-      if(along_side)
-        is_done_[p] = 1;
-      along_side = !find_next(p, q, along_side);
-      p = q;
-    }
-    while(p != begin || !along_side);
-  }
-
-  // Arrived at q from p: is the next segment an arc, to `next_place_`? Around q, counterclockwise, there are the next place, the
-  // ends of its arcs, and the previous place.
-  bool find_next(std::size_t p, std::size_t q, bool along_side)
-  {
-    const std::size_t k = side_of(q);
-    if(q != corner_[k])
-    {
-      next_place_ = other_end_[q];
-      return along_side;
-    }
-    if(along_side && fan_size_[k] > 0)
-    {
-      next_place_ = fan_begin_[k] + fan_size_[k] - 1;
-      return true;
-    }
-    if(!along_side && p > fan_begin_[k])
-    {
-      next_place_ = p - 1;
-      return true;
-    }
-    return false;
-  }
-
-  Overlay_corner corner(Index f, std::size_t p, std::size_t q, bool along_side) const
-  {
-    const std::size_t k = side_of(p);
-    const Index h = 3 * f + Index(k);
+    const Index h = 3 * f + Index(triangle_.side(segment.from));
     Overlay_corner result;
-    result.is_crossing = p != corner_[k];
-    result.index = result.is_crossing ? Index(number_of_crossing(h, p - corner_[k] - 1)) : h;
-    if(along_side)
+    result.is_crossing = !triangle_.is_corner(segment.from);
+    result.index = result.is_crossing ? Index(crossing_at(f, segment.from)) : h;
+    if(segment.is_on_side)
       result.input_halfedge = record_.coincides(t_.edge(h)) ? record_.input_halfedge(t_, h) : input_.null_index;
     else if(result.is_crossing)
       result.input_halfedge = input_halfedge(result.index, crossings[result.index].halfedge != h); // into the triangle
     else
     {
-      const std::size_t l = side_of(q);
-      const Index g = 3 * f + Index(l);
-      const std::size_t crossing = number_of_crossing(g, q - corner_[l] - 1);
+      const Index g = 3 * f + Index(triangle_.side(segment.to));
+      const std::size_t crossing = crossing_at(f, segment.to);
       result.input_halfedge = input_halfedge(crossing, crossings[crossing].halfedge == g); // out of it
     }
     return result;
@@ -379,13 +447,8 @@ private:
   const Intrinsic_triangulation<NT>& t_;
   const Normal_coordinates& record_;
   std::vector<std::size_t> first_; // by current edge: its first crossing
-
-  // of the triangle at hand
-  std::array<std::size_t, 3> corner_, fan_begin_, fan_size_;
-  std::vector<std::size_t> other_end_; // by place
-  std::vector<char> is_done_;          // by place: whether the cell on the left of the segment to the next place was visited
+  Triangle_cells triangle_;        // the triangle at hand
   std::vector<Overlay_corner> cell_;
-  std::size_t next_place_ = 0;
 };
 
 } // namespace internal
