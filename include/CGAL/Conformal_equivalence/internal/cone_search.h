@@ -10,7 +10,7 @@
 //
 // is a Newton step for the residual r: one solution with the factor, and a dense system with as many unknowns as there are cones. On a
 // closed surface A has the constants for its kernel: one vertex is grounded, the constant is one more unknown, and forces and residuals sum up to
-// zero. As the factor is not renewed the steps converge linearly, which does where cones are only compared.
+// zero. With the same factor all the time the steps converge linearly, which does where cones are only compared.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONE_SEARCH_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONE_SEARCH_H
@@ -123,22 +123,24 @@ public:
   static void add(Placement& p, Index v) { p.cones.push_back(v); }
   static void remove(Placement& p, std::size_t i) { p.cones.erase(p.cones.begin() + std::ptrdiff_t(i)); }
 
-  // Some steps of Newton's method with the first factor, until the angles are right up to `close`. Returns whether they came near.
+  // Some steps of Newton's method with the factor that there is, until angles, and u at free cones, are right up to `close`. Where that comes to nothing, the
+  // factor is renewed. Returns whether they came nearer.
   bool relax(Placement& p, int most, double close = 1e-3)
   {
-    double last = std::numeric_limits<double>::infinity();
-    for(int i = 0; i < most; ++i)
+    Vertex_vector r;
+    double size = error(p, p.u, r);
+    int number_of_slow_steps = 0;
+    for(int i = 0; i < most && size > close; ++i)
     {
-      if(!step(p))
+      const double last = size;
+      if(!step(p, r, size))
         return false;
-      if(last_residual_ <= close)
-        break;
-      if(!(last_residual_ < 4 * last))
+      number_of_slow_steps = size > 0.3 * last ? number_of_slow_steps + 1 : 0;
+      if(number_of_slow_steps == 2 && !renew_factor(p.u))
         return false;
-      last = last_residual_;
     }
     judge(p);
-    return true;
+    return std::isfinite(size);
   }
 
   // The measure after the cone number i has moved to v, as far as u depends linearly on forces.
@@ -277,23 +279,33 @@ private:
     return flat_angle(p) - energy_.angle_sums()[p.cones[i]];
   }
 
-  bool step(Placement& p)
+  // The residual of the angles at u, 0 at free cones; and how much is wrong: angles, in radians, and u at free cones.
+  double error(const Placement& p, const Vertex_vector& u, Vertex_vector& r)
   {
-    if(!energy_.evaluate(p.u))
-      return false;
+    if(!energy_.evaluate(u))
+      return std::numeric_limits<double>::infinity();
     const double flat = flat_angle(p);
-    Vertex_vector r(p.u.size(), 0.), d;
-    last_residual_ = 0;
-    double total = 0;
+    double result = 0;
+    r.assign(u.size(), 0.);
     for(Index v : inner_)
       r[v] = energy_.angle_sums()[v] - flat;
     for(std::size_t i = 0; i < p.cones.size(); ++i)
-      r[p.cones[i]] = p.angles.empty() ? 0 : energy_.angle_sums()[p.cones[i]] - p.angles[i];
-    for(Index v : inner_)
     {
-      last_residual_ = (std::max)(last_residual_, std::abs(r[v]));
-      total += r[v];
+      const Index c = p.cones[i];
+      r[c] = p.angles.empty() ? 0 : energy_.angle_sums()[c] - p.angles[i];
+      if(p.angles.empty())
+        result = (std::max)(result, std::abs(u[c]));
     }
+    return (std::max)(result, largest_entry(r));
+  }
+
+  // A step, shortened if it is of no use; `r` and `size` are of p.u, before and after.
+  bool step(Placement& p, Vertex_vector& r, double& size)
+  {
+    Vertex_vector d;
+    double total = 0;
+    for(Index v : inner_)
+      total += r[v];
     if(!std::isfinite(total) || !linear_.precondition(r, d))
       return false;
     ++number_of_solves_;
@@ -301,9 +313,28 @@ private:
       centre_change(p.u, d);
     else if(!correct(p, total, d))
       return false;
-    for(std::size_t v = 0; v < d.size(); ++v)
-      p.u[v] += d[v];
-    return true;
+    const double least = 0.1;
+    for(double t = 1; ; t /= 2)
+    {
+      Vertex_vector u = p.u, next;
+      for(std::size_t v = 0; v < d.size(); ++v)
+        u[v] += t * d[v];
+      const double next_size = error(p, u, next);
+      if(!(next_size < size) && t > least)
+        continue;
+      if(!std::isfinite(next_size))
+        return false;
+      p.u.swap(u);
+      r.swap(next);
+      size = next_size;
+      return true;
+    }
+  }
+
+  bool renew_factor(const Vertex_vector& u)
+  {
+    response_.clear();
+    return energy_.evaluate(u) && linear_.factorize(energy_.weights());
   }
 
   const Triangulation& t_;
@@ -316,7 +347,6 @@ private:
   Index ground_ = Triangulation::null_index;
   std::vector<double> first_weights_;
   std::map<Index, Vertex_vector> response_;
-  double last_residual_ = 0;
   std::size_t number_of_solves_ = 0;
 };
 

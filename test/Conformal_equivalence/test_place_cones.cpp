@@ -1,0 +1,384 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Cones that place themselves: the linear algebra of their search, their angles, and what is gained.
+
+#define BOOST_TEST_MODULE test_place_cones
+#include "include/boost_test.h"
+
+#include "include/flattened_meshes.h"
+#include "include/test_meshes.h"
+
+#include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/place_cones.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <vector>
+
+namespace CE = CGAL::Conformal_equivalence;
+namespace params = CGAL::parameters;
+using namespace testing;
+
+namespace {
+
+typedef CE::Intrinsic_triangulation<double>                             Triangulation;
+typedef CE::internal::Cone_search<double, CE::Default_solver_traits>    Search;
+typedef CE::internal::Placement                                         Placement;
+
+// A disk with three bumps, one of them larger.
+Soup bumps(Index n)
+{
+  return symmetric_grid(n, [](double x, double y)
+  {
+    const auto bump = [&](double a, double b, double h, double w) { return h * std::exp(-((x - a) * (x - a) + (y - b) * (y - b)) / (w * w)); };
+    return bump(0.3, 0.3, 0.3, 0.13) + bump(0.7, 0.35, 0.22, 0.13) + bump(0.5, 0.75, 0.25, 0.15);
+  });
+}
+
+// A sphere with arms.
+Soup arms(int levels)
+{
+  Soup soup = icosphere(levels);
+  for(Point& p : soup.points)
+  {
+    double r = 1;
+    for(const Point& d : {Point{{1, 0, 0}}, Point{{-0.5, 0.8, 0.1}}, Point{{-0.4, -0.6, 0.7}}, Point{{0, -0.2, -1}}})
+    {
+      const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), c = (p[0] * d[0] + p[1] * d[1] + p[2] * d[2]) / length;
+      r += 0.8 * std::exp(7 * (c - 1));
+    }
+    for(double& x : p)
+      x *= r;
+  }
+  return soup;
+}
+
+CE::Surface_components::Component only_component(const Triangulation& t) { return CE::connected_components(t).components[0]; }
+
+double largest(const std::vector<double>& u)
+{
+  double result = 0;
+  for(double x : u)
+    result = (std::max)(result, std::abs(x));
+  return result;
+}
+
+double u_without_cones(const Triangulation& t)
+{
+  return largest(CE::compute_conformal_metric(t, CE::Conformal_conditions<double>(t)).log_scale_factors);
+}
+
+// All assignments of positive integers near the x with the given sum: the least possible largest difference.
+double least_error(const std::vector<double>& x, long sum)
+{
+  double best = std::numeric_limits<double>::infinity();
+  std::vector<long> k(x.size(), 1);
+  std::function<void(std::size_t, long, double)> assign = [&](std::size_t i, long rest, double error)
+  {
+    if(error >= best)
+      return;
+    if(i + 1 == x.size())
+    {
+      if(rest >= 1)
+        best = (std::min)(best, (std::max)(error, std::abs(x[i] - double(rest))));
+      return;
+    }
+    for(long n = 1; n < rest; ++n)
+      assign(i + 1, rest - n, (std::max)(error, std::abs(x[i] - double(n))));
+  };
+  assign(0, sum, 0);
+  return best;
+}
+
+} // namespace
+
+// ---- Rounding of angles
+
+BOOST_AUTO_TEST_CASE(the_largest_error_of_rounding_is_as_small_as_can_be)
+{
+  Random random(7);
+  int n_failed = 0, n_unlike_nearest = 0;
+  for(int trial = 0; trial < 3000; ++trial)
+  {
+    const std::size_t n = 1 + random.below(6);
+    std::vector<double> x(n);
+    for(double& y : x)
+      y = random(0.05, 5);
+    const long exact = std::lround(std::accumulate(x.begin(), x.end(), 0.)), sum = (std::max)(long(n), exact + long(random.below(5)) - 2);
+    const std::vector<long> k = CE::internal::nearest_integers(x, sum);
+    BOOST_REQUIRE_EQUAL(k.size(), n);
+    BOOST_TEST(std::accumulate(k.begin(), k.end(), 0l) == sum);
+    double error = 0;
+    for(std::size_t i = 0; i < n; ++i)
+    {
+      BOOST_TEST(k[i] >= 1);
+      error = (std::max)(error, std::abs(x[i] - double(k[i])));
+      n_unlike_nearest += k[i] != (std::max)(1l, std::lround(x[i])) ? 1 : 0;
+    }
+    n_failed += std::abs(error - least_error(x, sum)) > 1e-9 ? 1 : 0;
+  }
+  BOOST_TEST(n_failed == 0);
+  BOOST_TEST(n_unlike_nearest > 1000); // it was not too easy
+}
+
+BOOST_AUTO_TEST_CASE(sums_that_positive_integers_cannot_have_are_refused)
+{
+  BOOST_TEST(CE::internal::nearest_integers({1.2, 2.3, 0.4}, 2).empty());
+  BOOST_TEST(CE::internal::nearest_integers({}, 3).empty());
+  BOOST_TEST((CE::internal::nearest_integers({1.2, 2.7, 0.1}, 0) == std::vector<long>{1, 3, 1}));
+}
+
+// ---- The search
+
+BOOST_AUTO_TEST_CASE(free_cones_have_u_zero_and_all_other_angles_are_flat)
+{
+  for(const Soup& soup : {bumps(16), arms(3), torus(20, 12)})
+  {
+    const Triangulation t = triangulation(soup);
+    Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::MAXIMUM_U);
+    BOOST_REQUIRE(search.factorize());
+    Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
+    for(Index i = 0; i < 4; ++i)
+      Search::add(p, search.candidates()[(2 * i + 1) * search.candidates().size() / 8]);
+    BOOST_REQUIRE(search.relax(p, 60, 1e-11));
+    for(Index c : p.cones)
+      BOOST_TEST(std::abs(p.u[c]) < 1e-9);
+
+    // the same by the solver
+    CE::Conformal_conditions<double> conditions(t);
+    for(Index c : p.cones)
+      conditions.fix_log_scale_factor(c, 0.);
+    const auto metric = CE::compute_conformal_metric(t, conditions, params::retriangulation(CE::Retriangulation::NEVER));
+    BOOST_REQUIRE(bool(metric));
+    double difference = 0;
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      difference = (std::max)(difference, std::abs(p.u[v] - metric.log_scale_factors[v]));
+    BOOST_TEST(difference < 1e-8);
+    BOOST_TEST(std::abs(p.measure - largest(metric.log_scale_factors)) < 1e-8);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(prescribed_angles_are_found_by_the_search_as_by_the_solver)
+{
+  const Triangulation t = triangulation(bumps(16));
+  Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::MAXIMUM_U);
+  BOOST_REQUIRE(search.factorize());
+  Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
+  p.cones = {search.candidates()[40], search.candidates()[111]};
+  p.angles = {3 * pi / 2, 5 * pi / 2};
+  BOOST_REQUIRE(search.relax(p, 60, 1e-11));
+  CE::Conformal_conditions<double> conditions(t);
+  conditions.prescribe_angle_sum(p.cones[0], 3 * pi / 2);
+  conditions.prescribe_angle_sum(p.cones[1], 5 * pi / 2);
+  const auto metric = CE::compute_conformal_metric(t, conditions, params::retriangulation(CE::Retriangulation::NEVER));
+  BOOST_REQUIRE(bool(metric));
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    BOOST_TEST(std::abs(p.u[v] - metric.log_scale_factors[v]) < 1e-8);
+}
+
+// What is expected of a move is exact to first order: for a surface that is nearly flat, the error is of second order.
+BOOST_AUTO_TEST_CASE(moves_are_foreseen_to_first_order)
+{
+  for(const bool is_free : {true, false})
+  {
+    std::array<double, 2> error;
+    for(int k = 0; k < 2; ++k)
+    {
+      const double height = k == 0 ? 0.05 : 0.025;
+      const Triangulation t = triangulation(grid(14, [&](double x, double y)
+        { return height * std::sin(5 * x + 1) * std::cos(4 * y) + 0.3 * height * std::sin(11 * x * y); }));
+      Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::DIRICHLET_ENERGY);
+      BOOST_REQUIRE(search.factorize());
+      Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
+      p.cones = {search.candidates()[30], search.candidates()[100]};
+      if(!is_free)
+        p.angles = {2 * pi - height * height, 2 * pi + 2 * height * height};
+      BOOST_REQUIRE(search.relax(p, 60, 1e-13));
+      const double expected = search.measure_if_moved(p, 1, search.candidates()[120]);
+      Placement moved = p;
+      moved.cones[1] = search.candidates()[120];
+      BOOST_REQUIRE(search.relax(moved, 60, 1e-13));
+      BOOST_TEST(std::abs(moved.measure - p.measure) > 1e-4 * p.measure);
+      error[std::size_t(k)] = std::abs(expected - moved.measure) / moved.measure;
+    }
+    BOOST_TEST(error[0] < 0.2);
+    BOOST_TEST(error[1] < 0.4 * error[0]); // curvature is of second order in the height: a quarter, asymptotically
+  }
+}
+
+// ---- Placements
+
+BOOST_AUTO_TEST_CASE(cones_make_it_better_and_optimization_no_worse_than_the_greedy_placement)
+{
+  for(const Soup& soup : {bumps(24), arms(3)})
+  {
+    const Triangulation t = triangulation(soup);
+    Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::MAXIMUM_U);
+    BOOST_REQUIRE(search.factorize());
+    for(std::size_t n : {3u, 5u})
+    {
+      Placement greedy = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
+      BOOST_REQUIRE(search.relax(greedy, 20));
+      while(greedy.cones.size() < n)
+      {
+        Search::add(greedy, search.worst_vertex(greedy));
+        BOOST_REQUIRE(search.relax(greedy, 20, 1e-9));
+      }
+      const auto placement = CE::place_cones(t, params::number_of_cones(n));
+      BOOST_REQUIRE(bool(placement));
+      BOOST_TEST(placement.cones.size() == n);
+      BOOST_TEST(std::is_sorted(placement.cones.begin(), placement.cones.end()));
+      BOOST_TEST(placement.maximum_log_scale_factor <= greedy.measure + 1e-3);
+      for(Index c : placement.cones)
+        BOOST_TEST(std::abs(placement.metric.log_scale_factors[c]) == 0);
+      for(std::size_t i = 0; i < n; ++i)
+        BOOST_TEST(placement.angles[i].radians() == placement.free_angles[i]);
+    }
+  }
+  const Triangulation t = triangulation(bumps(24));
+  BOOST_TEST(CE::place_cones(t, params::number_of_cones(3)).maximum_log_scale_factor < 0.6 * u_without_cones(t));
+}
+
+BOOST_AUTO_TEST_CASE(a_bound_is_met_or_the_best_is_returned)
+{
+  const Triangulation t = triangulation(bumps(24));
+  const double before = u_without_cones(t);
+  const auto met = CE::place_cones(t, params::maximum_log_scale_factor(before / 2));
+  BOOST_REQUIRE(bool(met));
+  BOOST_TEST(met.maximum_log_scale_factor <= before / 2);
+  BOOST_TEST(met.cones.size() >= 1);
+  const auto none = CE::place_cones(t, params::maximum_log_scale_factor(before + 1));
+  BOOST_TEST(bool(none));
+  BOOST_TEST(none.cones.empty());
+  const auto missed = CE::place_cones(t, params::maximum_log_scale_factor(before / 100).number_of_cones(std::size_t(2)));
+  BOOST_TEST((missed.status == CE::Status::BOUND_NOT_MET));
+  BOOST_TEST(missed.cones.size() == 2);
+  BOOST_TEST(missed.amount == missed.maximum_log_scale_factor);
+  BOOST_TEST(missed.amount > before / 100);
+}
+
+BOOST_AUTO_TEST_CASE(quantized_angles_are_multiples_and_satisfy_gauss_and_bonnet_exactly)
+{
+  for(const int n : {2, 3, 4, 6})
+    for(const Soup& soup : {arms(3), torus(24, 12), bumps(20)})
+    {
+      const Triangulation t = triangulation(soup);
+      const auto component = only_component(t);
+      const auto placement = CE::place_cones(t, params::number_of_cones(std::size_t(6)).angle_quantum(2 * pi / n));
+      BOOST_REQUIRE_MESSAGE(bool(placement), CE::message(placement.status));
+      BOOST_TEST(placement.cones.size() + placement.flattened.size() == 6);
+      const long quantum = 2 * CE::Exact_angle<double>::units_of_pi / n;
+      long curvature = 0;
+      for(const auto& angle : placement.angles)
+      {
+        BOOST_TEST(angle.is_exact());
+        BOOST_TEST(angle.units > 0);
+        BOOST_TEST(angle.units % quantum == 0);
+        BOOST_TEST(angle.units != n * quantum); // those are no cones
+        curvature += n * quantum - angle.units;
+      }
+      if(component.number_of_borders == 0)
+        BOOST_TEST(curvature == long(component.euler_characteristic()) * n * quantum);
+      BOOST_TEST(placement.metric.statistics.residual <= 1e-12);
+      for(std::size_t i = 0; i < placement.cones.size(); ++i)
+        BOOST_TEST(std::abs(CE::internal::angle_sum_at(placement.metric, placement.cones[i]) - placement.angles[i].radians()) < 1e-10);
+    }
+}
+
+// Vertices in another order: the same cones, on a surface without symmetries.
+BOOST_AUTO_TEST_CASE(the_numbers_of_vertices_do_not_matter)
+{
+  Soup soup = bumps(20);
+  add_noise(soup, 0.004, 3);
+  const Index n = Index(soup.points.size());
+  std::vector<Index> number(n);
+  std::iota(number.begin(), number.end(), 0);
+  Random random(5);
+  for(Index i = n; i > 1; --i)
+    std::swap(number[i - 1], number[random.below(i)]);
+  Soup other = soup;
+  for(Index v = 0; v < n; ++v)
+    other.points[number[v]] = soup.points[v];
+  for(auto& triangle : other.triangles)
+    for(Index& v : triangle)
+      v = number[v];
+  const auto first = CE::place_cones(triangulation(soup), params::number_of_cones(std::size_t(4)));
+  const auto second = CE::place_cones(triangulation(other), params::number_of_cones(std::size_t(4)));
+  BOOST_REQUIRE(bool(first));
+  BOOST_REQUIRE(bool(second));
+  std::set<Index> expected, found(second.cones.begin(), second.cones.end());
+  for(Index c : first.cones)
+    expected.insert(number[c]);
+  BOOST_TEST((expected == found));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused)
+{
+  using CE::Status;
+  const auto status = [](const Soup& soup, const auto& np) { return CE::place_cones(triangulation(soup), np).status; };
+  const Soup disk = bumps(6), sphere = icosphere(1);
+  const std::size_t one = 1, two = 2, three = 3, many = 100000;
+  BOOST_TEST((status(disk, params::number_of_sweeps(two)) == Status::MISSING_CONDITION)); // neither number nor bound
+  BOOST_TEST((status(sphere, params::number_of_cones(one)) == Status::MISSING_CONDITION));
+  BOOST_TEST((status(sphere, params::number_of_cones(two)) == Status::MISSING_CONDITION));
+  BOOST_TEST((status(sphere, params::number_of_cones(three)) == Status::OK));
+  BOOST_TEST((status(disk, params::number_of_cones(many)) == Status::TOO_MANY_CONES));
+  BOOST_TEST((status(flat_grid(1), params::number_of_cones(one)) == Status::TOO_MANY_CONES)); // no vertex inside
+  BOOST_TEST((status(disk, params::number_of_cones(one).angle_quantum(1.)) == Status::ANGLE_OUT_OF_RANGE));
+  BOOST_TEST((status(disk, params::number_of_cones(one).angle_quantum(-1.)) == Status::OK)); // none
+  BOOST_TEST((status(sphere, params::number_of_cones(three).angle_quantum(pi)) == Status::NOT_QUANTIZABLE)); // three times pi at least
+  BOOST_TEST((status(together({disk, disk}), params::number_of_cones(one)) == Status::WRONG_TOPOLOGY));
+  BOOST_TEST((status(Soup(), params::number_of_cones(one)) == Status::EMPTY_MESH));
+}
+
+// ---- Meshes
+
+BOOST_AUTO_TEST_CASE(a_mesh_is_flattened_with_the_angles_written)
+{
+  Mesh mesh = surface_mesh<Mesh>(arms(3));
+  auto angle = mesh.add_property_map<Vertex, double>("v:angle", -1).first;
+  auto u = mesh.add_property_map<Vertex, double>("v:u", -1).first;
+  auto uv = mesh.add_property_map<Halfedge, Point_2>("h:uv").first;
+  const auto report = CE::place_cones(mesh, angle, params::number_of_cones(std::size_t(6)).angle_quantum(pi / 2).log_scale_factor_map(u));
+  BOOST_REQUIRE(bool(report));
+  BOOST_TEST(!report.cones.empty());
+  double curvature = 0, most = 0;
+  for(Vertex v : vertices(mesh))
+  {
+    curvature += 2 * pi - angle[v];
+    most = (std::max)(most, std::abs(u[v]));
+  }
+  BOOST_TEST(std::abs(curvature - 4 * pi) < 1e-12);
+  const auto flat = CE::flatten(mesh, uv, params::cone_angle_map(angle));
+  BOOST_REQUIRE_MESSAGE(bool(flat), CE::message(flat));
+  BOOST_TEST(flat.cones.size() == report.cones.size());
+  BOOST_TEST(most < 5);
+
+  // bad input leaves the map alone
+  std::fill(angle.begin(), angle.end(), -1);
+  const auto refused = CE::place_cones(mesh, angle, params::number_of_cones(std::size_t(2)));
+  BOOST_TEST((refused.status == CE::Status::MISSING_CONDITION));
+  for(Vertex v : vertices(mesh))
+    BOOST_TEST(angle[v] == -1);
+}
+
+// The five cones of the paper's Lion: all become 3 pi / 2.
+BOOST_AUTO_TEST_CASE(five_cones_on_the_lion, *needs_mesh("lion-head.off"))
+{
+  const Mesh mesh = read_mesh("lion-head.off");
+  const auto imported = CE::import_mesh(mesh);
+  const auto placement = CE::place_cones(imported.triangulation, params::number_of_cones(std::size_t(5)).angle_quantum(pi / 2));
+  BOOST_REQUIRE(bool(placement));
+  BOOST_TEST(placement.cones.size() == 5);
+  for(const auto& angle : placement.angles)
+    BOOST_TEST(angle.units == 3 * CE::Exact_angle<double>::units_of_pi / 2);
+  BOOST_TEST(placement.maximum_log_scale_factor <= 1.14);
+  BOOST_TEST(placement.metric.statistics.number_of_iterations <= 6);
+}
