@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/internal/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/solver/wide_newton_step.h>
 #include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+#include <CGAL/Conformal_equivalence/map_to_sphere.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -658,4 +659,63 @@ BOOST_AUTO_TEST_CASE(flatten_with_many_digits)
   std::istringstream rounded_in(rounded_out.str());
   for(std::string line; std::getline(rounded_in, line); )
     BOOST_TEST(line.size() <= 3 + 2 * 24 + 26u);
+}
+
+namespace {
+
+struct Wide_point_3
+{
+  std::array<Number, 3> coordinate;
+  Wide_point_3() = default;
+  Wide_point_3(const Number& x, const Number& y, const Number& z) : coordinate{{x, y, z}} {}
+};
+
+Number squared_distance(const Wide_point_3& p, const Wide_point_3& q)
+{
+  Number result(0);
+  for(std::size_t i = 0; i < 3; ++i)
+    result += (p.coordinate[i] - q.coordinate[i]) * (p.coordinate[i] - q.coordinate[i]);
+  return result;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(a_sphere_with_many_digits)
+{
+  const CE::Working_precision precision(200);
+  testing::Soup soup = testing::icosphere(1);
+  testing::add_noise(soup, .05, 1);
+  Mesh mesh = testing::surface_mesh<Mesh>(soup);
+  const auto on_sphere = mesh.add_property_map<Mesh::Vertex_index, Wide_point_3>("sphere").first;
+  const auto rounded = mesh.add_property_map<Mesh::Vertex_index, Mesh::Point>("rounded").first;
+  const auto report = CE::map_to_sphere<Number>(mesh, on_sphere, CGAL::parameters::gradient_tolerance(0.));
+  BOOST_REQUIRE(bool(report));
+  BOOST_TEST(report.rounded_faces.empty());
+  BOOST_REQUIRE(bool(CE::map_to_sphere(mesh, rounded)));
+  for(const Mesh::Vertex_index v : mesh.vertices())
+  {
+    const auto& p = on_sphere[v].coordinate;
+    BOOST_TEST((abs(Number(squared_distance(on_sphere[v], Wide_point_3(0, 0, 0)) - 1)) <= 1e-58));
+    BOOST_TEST(std::hypot(static_cast<double>(p[0]) - rounded[v].x(), static_cast<double>(p[1]) - rounded[v].y(),
+                          static_cast<double>(p[2]) - rounded[v].z()) <= 1e-13);
+  }
+
+  // at every edge, for the lengths of the points themselves: squares of length cross ratios
+  const auto point = [&](Mesh::Vertex_index v)
+  {
+    const auto& p = mesh.point(v);
+    return Wide_point_3(Number(p.x()), Number(p.y()), Number(p.z()));
+  };
+  for(const Mesh::Edge_index e : mesh.edges())
+  {
+    const Mesh::Halfedge_index h = mesh.halfedge(e), g = mesh.opposite(h);
+    const Mesh::Vertex_index i = mesh.source(h), j = mesh.target(h), k = mesh.target(mesh.next(h)), l = mesh.target(mesh.next(g));
+    const auto cross_ratio = [&](const auto& place)
+    {
+      return Number(squared_distance(place(i), place(l)) * squared_distance(place(j), place(k))
+                  / (squared_distance(place(l), place(j)) * squared_distance(place(k), place(i))));
+    };
+    const Number surface = cross_ratio(point), sphere = cross_ratio([&](Mesh::Vertex_index v) { return on_sphere[v]; });
+    BOOST_TEST((abs(Number(sphere / surface - 1)) <= 1e-40));
+  }
 }

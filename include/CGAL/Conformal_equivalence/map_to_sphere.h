@@ -110,11 +110,7 @@ private:
     polyhedron = mapping(apex, given_retriangulation(np), [&](Ideal_polyhedron<NT>& found)
     {
       if(!center(found.vectors))
-      {
         found.status = Status::SINGULAR_PROBLEM;
-        const auto heaviest = std::max_element(weights.begin(), weights.end());
-        found.vertices.assign(1, Index(heaviest - weights.begin()));
-      }
       else
         turn(found.vectors, weights, np);
       return flipped_faces(found.triangulation, wide_points(found.vectors));
@@ -269,6 +265,7 @@ private:
       return;
     }
     const std::vector<Wide_point> wide = wide_points(overlay.vectors);
+    set_weights(overlay);
     project_faces(wide, overlay.parts);
     refinement.parts = triangulate_refinement(overlay.parts);
     refinement.parts.corner_uv.clear();
@@ -276,6 +273,19 @@ private:
     judge_parts(wide);
     for(Index f : bent)
       report.bent_faces.push_back(mesh.face(f));
+  }
+
+  // Points of edges of the polyhedron lie within the sphere, and go from there to it: for these points of the sphere w is not the
+  // weight of the vector, but the length of its part in space.
+  void set_weights(Ideal_refinement<NT>& overlay) const
+  {
+    using std::sqrt;
+    for(std::size_t v = mesh.triangulation.number_of_vertices(); v < overlay.vectors.size(); ++v)
+    {
+      const Light_vector<Wide>& x = overlay.vectors[v];
+      const Wide length = sqrt(Wide(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
+      overlay.parts.weights[v] = static_cast<NT>(Wide(overlay.parts.weights[v] * length / x[3]));
+    }
   }
 
   // Every face from the centre to a plane in front of it, so that it can be cut into triangles.
@@ -418,7 +428,7 @@ void write_sphere(const Sphere_mapping<TriangleMesh, NT>& mapping, VertexPointMa
 /// \cgalNamedParamsEnd
 ///
 /// \return the report. Maps are written iff it is a success. Statuses: those of `import_mesh()`; `WRONG_TOPOLOGY`, with what was found
-///         (`Flattening_report::topology`); those of `Conformal_metric_solver::solve()`; `SINGULAR_PROBLEM` (a vertex) if that has half of the weight; `NOT_INJECTIVE` (faces); those of `compute_common_refinement()` if the refinement was asked for.
+///         (`Flattening_report::topology`); those of `Conformal_metric_solver::solve()`; `SINGULAR_PROBLEM` if no Moebius transformation centres the barycentre: with `Moebius_weights::AREAS` where no triangle has an area; `NOT_INJECTIVE` (faces); those of `compute_common_refinement()` if the refinement was asked for.
 ///
 /// Time is that of `flatten()` for a disk of that size; with flips that of a few of them.
 ///

@@ -5,7 +5,7 @@
 // edges (section 4.3 of Springborn, Schroeder and Pinkall, 2008).
 //
 // One vertex, the apex p, is sent to infinity. The edges l_ip become infinitely long parallels; u_i = -2 log l_ip at the link of p says that they
-// begin at the same height. What remains of the surface is a disk, flat where it is inside:
+// begin at the same height (up to a constant for all: their typical length is the unit, so that u does not depend on scale). What remains of the surface is a disk, flat where it is inside:
 //
 //            p                            |   |     |   |
 //          / | \ .                        |   |     |   |          the disk is laid out in the plane, and
@@ -124,6 +124,7 @@ struct Ideal_polyhedron
   typedef typename Wider_number<NT>::type Wide;
 
   Index apex = Intrinsic_triangulation<NT>::null_index;
+  double unit = 1;                            // how long edges of the apex are whose other ends have u = 0
   Intrinsic_triangulation<NT> triangulation;  // of the whole surface, flipped
   std::vector<Index> flips;                   // how it came from the one given
   std::vector<Light_vector<Wide> > vectors;   // by vertex; 0 for isolated ones
@@ -184,10 +185,11 @@ public:
     Polyhedron result;
     result.apex = apex;
     result.triangulation = given_;
+    result.unit = typical_spoke(given_, apex);
     const Punctured_surface<NT> rest = without_star(given_, apex);
     if(!rest.is_disk(apex))
       return refused(std::move(result), Status::WRONG_TOPOLOGY);
-    const Metric metric = compute_conformal_metric(rest.triangulation, conditions(given_, apex, rest.triangulation),
+    const Metric metric = compute_conformal_metric(rest.triangulation, conditions(result, rest.triangulation),
                                                    Conformal_equivalence::combine_named_parameters(solver_parameters(), parameters::retriangulation(Retriangulation::NEVER)));
     take_over(metric, result);
     for(Index f : metric.faces)
@@ -209,10 +211,13 @@ public:
     for(int round = 0; round < most; ++round)
     {
       tidy_star(result);
+      widen_star(result);
+      if(round == 0)
+        result.unit = typical_spoke(result.triangulation, apex);
       const Punctured_surface<NT> rest = without_star(result.triangulation, apex);
       if(!rest.is_disk(apex))
         return refused(std::move(result), Status::SINGULAR_PROBLEM);
-      const Metric metric = solve(rest.triangulation, conditions(result.triangulation, apex, rest.triangulation), u);
+      const Metric metric = solve(rest.triangulation, conditions(result, rest.triangulation), u);
       take_over(metric, result);
       if(!is_success(metric.status) && metric.status != Status::DEGENERATE_METRIC)
         return result;
@@ -258,10 +263,24 @@ private:
     return parameters::choose_parameter(parameters::get_parameter(np_, internal_np::conformal_gradient_tolerance), 1e-12);
   }
 
+  // The geometric mean of the lengths of the edges at the apex, to a power of two.
+  static double typical_spoke(const Triangulation& t, Index apex)
+  {
+    double sum = 0, number = 0;
+    t.for_each_outgoing(apex, [&](Index h)
+    {
+      sum += std::log2(static_cast<double>(t.halfedge_length(h)));
+      number += 1;
+    });
+    return std::isfinite(sum) && number > 0 ? std::exp2(std::round(sum / number)) : 1;
+  }
+
   // What is left of the surface is flat, with a straight border but for the link of the apex.
-  Conformal_conditions<NT> conditions(const Triangulation& t, Index apex, const Triangulation& rest) const
+  Conformal_conditions<NT> conditions(const Polyhedron& polyhedron, const Triangulation& rest) const
   {
     using std::log;
+    const Triangulation& t = polyhedron.triangulation;
+    const Index apex = polyhedron.apex;
     Conformal_conditions<NT> result(rest);
     for(Index v = 0; v < rest.number_of_vertices(); ++v)
       if(!rest.is_isolated_vertex(v) && rest.is_border_vertex(v))
@@ -270,7 +289,7 @@ private:
     {
       for(Index e : {t.edge(h), t.edge(t.previous(h))})
         result.fix_log_scale_factor(t.origin(t.edge_halfedge(e)) == apex ? t.target(t.edge_halfedge(e)) : t.origin(t.edge_halfedge(e)),
-                                    NT(-2 * log(t.length(e))));
+                                    NT(-2 * log(NT(t.length(e) / polyhedron.unit))));
     });
     return result;
   }
@@ -360,6 +379,36 @@ private:
     return t.null_index;
   }
 
+  // An apex needs three neighbours. Where it has less, triangles beyond its link are added to its star, the shortest new edges first.
+  static void widen_star(Polyhedron& result)
+  {
+    for(Index e = 0; e != Triangulation::null_index && result.triangulation.degree(result.apex) < 3; )
+    {
+      e = edge_to_widen(result.triangulation, result.apex);
+      if(e != Triangulation::null_index)
+        flip(e, result);
+    }
+  }
+
+  static Index edge_to_widen(const Triangulation& t, Index apex)
+  {
+    std::vector<Index> neighbours(1, apex), link;
+    t.for_each_outgoing(apex, [&](Index h)
+    {
+      neighbours.push_back(t.target(h));
+      link.push_back(t.next(h));
+    });
+    Index best = t.null_index;
+    for(Index h : link)
+    {
+      const Index e = t.edge(h);
+      if(t.is_flippable(e) && std::find(neighbours.begin(), neighbours.end(), t.apex(t.twin(h))) == neighbours.end()
+         && (best == t.null_index || ptolemy_length(t, e) < ptolemy_length(t, best)))
+        best = e;
+    }
+    return best;
+  }
+
   // The exchange described above. Returns whether there was anything to do.
   static bool exchange(const Punctured_surface<NT>& rest, const Metric& metric, Polyhedron& result)
   {
@@ -426,7 +475,8 @@ private:
     for(Index v = 0; v < disk.number_of_vertices(); ++v)
       if(!disk.is_isolated_vertex(v))
         result.vectors[v] = light_vector(Complex{position[v].re / size, position[v].im / size}, Wide(metric.scale_factors[v] / root));
-    result.vectors[result.apex] = {{Wide(0), Wide(0), -(Wide(1) / (2 * Wide(size))), Wide(1) / (2 * Wide(size))}};
+    const Wide weight = Wide(result.unit) * result.unit / (2 * Wide(size));
+    result.vectors[result.apex] = {{Wide(0), Wide(0), -weight, weight}};
   }
 
   static Wide sqrt_of(const Wide& x)

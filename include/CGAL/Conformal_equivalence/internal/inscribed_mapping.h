@@ -151,9 +151,9 @@ private:
     std::vector<Index> flips;
     if(retriangulation == Retriangulation::ALWAYS && !make_delaunay(start, flips, result))
       return result;
-    std::vector<Index> apices(1, apex);
-    if(apex == surface_.null_index)
-      apices = best_apices(is_closed() ? start : surface_, 8);
+    std::vector<Index> apices = best_apices(is_closed() ? start : surface_, 8);
+    if(apex != surface_.null_index) // others lead to the same polyhedron, if this one fails
+      apices.insert(apices.begin(), apex);
     const Ideal_polyhedron_finder<NT, NamedParameters> find(whole_, np_);
     result = without_apex();
     for(Index a : apices)
