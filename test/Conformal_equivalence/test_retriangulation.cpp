@@ -1,15 +1,18 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Flips of edges: what they keep, the two rules for the new length, exact Delaunay decisions, and that the flip
-// algorithm ends with a Delaunay triangulation, whatever the lengths.
+// Flips of edges: what they keep, the two rules for the new length, exact Delaunay decisions, that the flip
+// algorithm ends with a Delaunay triangulation, whatever the lengths, and that a search on flipped ones ends.
 
 #define BOOST_TEST_MODULE test_retriangulation
 #include "include/boost_test.h"
 #include "include/test_meshes.h"
 
+#include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/delaunay.h>
+#include <CGAL/Conformal_equivalence/internal/ideal_delaunay_energy.h>
+#include <CGAL/Conformal_equivalence/internal/newton.h>
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -529,6 +532,125 @@ BOOST_AUTO_TEST_CASE(predicate_is_the_definition_evaluated_exactly)
     }
   }
   BOOST_TEST(zero == 300u);
+}
+
+namespace {
+
+template <typename Real>
+CEi::Quad<Real> converted(const CEi::Quad<double>& q)
+{
+  return {Real(q.e), Real(q.a), Real(q.b), Real(q.c), Real(q.d), Real(q.i), Real(q.j), Real(q.k), Real(q.l)};
+}
+
+// a near tie: up to some units in the last place
+CEi::Quad<double> random_quad(Random& random, double range, bool is_near_tie)
+{
+  CEi::Quad<double> q{1., 1., 1., 1., 1., 1., 1., 1., 1.};
+  for(double* x : {&q.e, &q.a, &q.b, &q.c, &q.d, &q.i, &q.j, &q.k, &q.l})
+    *x = logarithmic(random, range);
+  if(is_near_tie)
+  {
+    const auto sides = CEi::ptolemy_sides(converted<Wide>(q));
+    q.e *= sqrt(Wide(sides.first / sides.second)).convert_to<double>();
+  }
+  return q;
+}
+
+// The same scaled lengths, of factors multiplied by powers of two.
+CEi::Quad<double> pulled_apart(CEi::Quad<double> q, int i, int j, int k, int l)
+{
+  const auto multiply = [](double& x, int n) { x = std::ldexp(x, n); };
+  multiply(q.i, i);
+  multiply(q.j, j);
+  multiply(q.k, k);
+  multiply(q.l, l);
+  multiply(q.e, -(i + j));
+  multiply(q.a, -(j + k));
+  multiply(q.b, -(k + i));
+  multiply(q.c, -(i + l));
+  multiply(q.d, -(l + j));
+  return q;
+}
+
+template <typename Real>
+bool difference_is_right(const CEi::Quad<double>& q, std::size_t& undecided)
+{
+  CEi::Relative_difference d;
+  if(!CEi::filtered_difference(converted<Real>(q), d))
+    return false;
+  undecided += std::fabs(d.value) <= d.error;
+  const CEi::Relative_difference exact = CEi::exact_difference(converted<CGAL::Exact_rational>(q));
+  return std::fabs(d.value - exact.value) <= d.error
+         && (std::fabs(d.value) <= d.error || (d.value > 0) == (exact.value > 0));
+}
+
+template <typename Real>
+bool same_difference(const CEi::Quad<double>& q, const CEi::Quad<double>& r)
+{
+  CEi::Relative_difference d, f;
+  return CEi::filtered_difference(converted<Real>(q), d) && CEi::filtered_difference(converted<Real>(r), f)
+         && d.value == f.value && d.error == f.error;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(filters_of_numbers_far_apart)
+{
+  Random random(60);
+  std::size_t far = 0, undecided = 0, undecided_wide = 0;
+  for(int n = 0; n < 1000; ++n)
+  {
+    const CEi::Quad<double> q = random_quad(random, 1, n % 2 == 0);
+    const auto exponent = [&]() { return int(random.below(800)) - 400; };
+    const int i = exponent(), j = exponent(), k = exponent(), l = exponent();
+    const CEi::Quad<double> r = pulled_apart(q, i, j, k, l);
+    far += !CEi::is_in_filter_range(r);
+    BOOST_REQUIRE(same_difference<double>(q, r));
+    BOOST_REQUIRE(same_difference<Double_double>(q, r));
+    BOOST_REQUIRE(difference_is_right<double>(r, undecided));
+    BOOST_REQUIRE(difference_is_right<Double_double>(r, undecided_wide));
+  }
+  BOOST_TEST(far > 900u);
+  BOOST_TEST(undecided > 400u);
+  BOOST_TEST(undecided_wide == 0u);
+
+  undecided = 0;
+  for(int n = 0; n < 1000; ++n) // sides of any ratio
+    BOOST_REQUIRE(difference_is_right<double>(random_quad(random, 600, false), undecided));
+  BOOST_TEST(undecided < 10u);
+
+  // what may have lost digits, or is no positive number, is left to the exact decision
+  CEi::Relative_difference d;
+  for(const double bad : {1e-300, 5e-324, 1e300, 0., -1., HUGE_VAL, std::nan("")})
+    for(double CEi::Quad<double>::* x : {&CEi::Quad<double>::e, &CEi::Quad<double>::a, &CEi::Quad<double>::d, &CEi::Quad<double>::i,
+                                        &CEi::Quad<double>::l})
+    {
+      CEi::Quad<double> q = random_quad(random, 1, false);
+      q.*x = bad;
+      BOOST_TEST(!CEi::filtered_difference(q, d));
+      BOOST_TEST(!CEi::filtered_difference(converted<Double_double>(q), d));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(numbers_far_apart_need_no_rationals)
+{
+  Random random(61);
+  std::size_t flips = 0;
+  for(int n = 0; n < 20; ++n)
+  {
+    Triangulation t = testing::triangulation(testing::icosahedron());
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      t.set_length(e, logarithmic(random, 100));
+    std::vector<double> s(t.number_of_vertices());
+    for(double& x : s)
+      x = logarithmic(random, 200);
+    Flipper flipper(t);
+    BOOST_REQUIRE(flipper.flip_to_delaunay(s, Flip_rule::PTOLEMY));
+    flips += flipper.counts().flips;
+    BOOST_TEST(flipper.counts().exact_decisions == 0u);
+    BOOST_TEST(flipper.verdict(s).is_within_bounds);
+  }
+  BOOST_TEST(flips > 200u);
 }
 
 BOOST_AUTO_TEST_CASE(predicate_is_the_in_circle_test)
@@ -1099,4 +1221,101 @@ BOOST_AUTO_TEST_CASE(other_number_types)
   compare((long double)(0));
   compare(Double_double(0));
   compare(Wide(0));
+}
+
+// ---- Newton's method on flipped triangulations
+
+namespace {
+
+// Two rings of n quadrilaterals of the given height, cut into triangles: needles. n <= 6
+testing::Soup low_cylinder(Index n, double height)
+{
+  testing::Soup soup;
+  for(Index row = 0; row < 3; ++row)
+    for(Index i = 0; i < n; ++i)
+      soup.points.push_back({{std::cos(2 * CGAL_PI * i / n), std::sin(2 * CGAL_PI * i / n), row * height}});
+  for(Index row = 0; row < 2; ++row)
+    for(Index i = 0; i < n; ++i)
+    {
+      const Index a = row * n + i, b = row * n + (i + 1) % n;
+      soup.triangles.push_back({{a, b, b + n}});
+      soup.triangles.push_back({{a, b + n, a + n}});
+    }
+  return soup;
+}
+
+// Large angles and those given in turn in the middle, except at its last vertex: there, u = 0
+std::vector<double> wild_angles(const Triangulation& t, double angle)
+{
+  const Index n = t.number_of_vertices() / 3;
+  std::vector<double> result(3 * n, CGAL_PI);
+  for(Index v = n; v + 1 < 2 * n; ++v)
+    result[v] = (v - n) % 2 == 0 ? 2 * CGAL_PI + 3 : angle;
+  return result;
+}
+
+struct Linear_observer
+{
+  CEi::Laplacian_solver<CE::Default_solver_traits>& linear;
+
+  void before_flip(const Triangulation&, Index) {}
+  void after_flip(const Triangulation& t, Index e) { linear.change_edge(t, e); }
+  void begin_anew(const Triangulation& t)
+  {
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      linear.change_edge(t, e);
+  }
+};
+
+// Writes how often one vertex was looked at by itself.
+CE::Status minimize(Triangulation t, const std::vector<double>& target, Index fixed, std::size_t& probes)
+{
+  typedef CEi::Ideal_delaunay_energy<double, Linear_observer> Energy;
+  CEi::Laplacian_solver<CE::Default_solver_traits> linear{CE::Default_solver_traits()};
+  std::vector<char> free(t.number_of_vertices(), 1);
+  free[fixed] = 0;
+  linear.set_edges(t);
+  linear.set_free(free);
+  Linear_observer observer{linear};
+  Energy energy(t, observer);
+  CEi::Newton_options options;
+  options.number_of_iterations = 100;
+  options.is_careful = true;
+  CE::Statistics statistics;
+  CE::Default_visitor visitor;
+  CEi::Newton_method<Energy, CE::Default_solver_traits, CE::Default_visitor>
+    newton(energy, linear, target, options, statistics, visitor);
+  std::vector<double> u(t.number_of_vertices(), 0.);
+  const CE::Status status = newton(u);
+  probes = energy.number_of_probes();
+  return status;
+}
+
+} // namespace
+
+// As border edges stay, there is no solution, or none within reach of double: the search for one must not go on and on.
+BOOST_AUTO_TEST_CASE(vertices_are_not_relaxed_forever)
+{
+  std::size_t failed = 0, stopped = 0, probes = 0;
+  for(Index n = 3; n <= 6; ++n)
+    for(const double height : {1e-8, 1e-14, 1e-17, 1e-20})
+      for(const double angle : {1e-11, .1, 1.})
+      {
+        const Triangulation t = testing::triangulation(low_cylinder(n, height));
+        failed += minimize(t, wild_angles(t, angle), 2 * n - 1, probes) == CE::Status::ITERATIONS_EXHAUSTED;
+        const double budget = 1000 + 1000. * t.number_of_vertices(), of_one_vertex = 110;
+        stopped += double(probes) > budget;
+        BOOST_TEST(double(probes) <= budget + of_one_vertex * t.number_of_vertices());
+      }
+  BOOST_TEST(failed > 30u);
+  BOOST_TEST_MESSAGE(failed << " of 48 have failed, " << stopped << " of them for relaxing in vain");
+
+  for(Index n = 3; n <= 6; ++n) // but where there is a solution, it is found
+    for(const double angle : {.1, 1.})
+    {
+      const Triangulation t = testing::triangulation(low_cylinder(n, .01));
+      BOOST_CHECK(minimize(t, wild_angles(t, angle), 2 * n - 1, probes) == CE::Status::OK);
+      BOOST_TEST(probes > 0u);
+      BOOST_TEST(probes <= 30 * t.number_of_vertices());
+    }
 }

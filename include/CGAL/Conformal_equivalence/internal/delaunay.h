@@ -183,16 +183,22 @@ template <typename Real> double filter_error();
 template <> inline double filter_error<double>() { return 7.2e-15; }
 template <> inline double filter_error<Double_double>() { return 0x1p-90; }
 
-// sides of numbers in this range, which have ten factors, neither over- nor underflow
 template <typename Real>
-bool is_in_filter_range(const Quad<Real>& q)
+bool is_in_range(const Quad<Real>& q, double from)
 {
   const To_double value;
   const double least = (std::min)({value(q.e), value(q.a), value(q.b), value(q.c), value(q.d),
                                    value(q.i), value(q.j), value(q.k), value(q.l)}),
                greatest = (std::max)({value(q.e), value(q.a), value(q.b), value(q.c), value(q.d),
                                       value(q.i), value(q.j), value(q.k), value(q.l)});
-  return least > 1e-28 && greatest < 1e28; // NaN may slip through: then the sides are NaN, and nothing is certain
+  return least > from && greatest < 1 / from; // NaN may slip through: then the sides are NaN, and nothing is certain
+}
+
+// sides of numbers in this range, which have ten factors, neither over- nor underflow
+template <typename Real>
+bool is_in_filter_range(const Quad<Real>& q)
+{
+  return is_in_range(q, 1e-28);
 }
 
 // divides the lengths by one power of two, and the factors by another: neither matters
@@ -210,21 +216,72 @@ void scale_by_powers_of_two(Quad<Real>& q)
     *x = ldexp(*x, -factors);
 }
 
+// x 2^-exponent in [1/2, 1)
+template <typename NT>
+NT mantissa(const NT& x, int& exponent)
+{
+  using std::ldexp;
+  std::frexp(static_cast<double>(x), &exponent);
+  return ldexp(x, -exponent);
+}
+
+// A positive number m 2^n, where numbers are too far apart for one range. The exponents of a few factors are of no size;
+// a product of ten mantissas is at least 2^-10; and of a sum, what is 2^-900 times the other is lost at most.
+template <typename Real>
+struct With_exponent
+{
+  Real m;
+  int n;
+
+  With_exponent(const Real& m, int n) : m(m), n(n) {}
+  explicit With_exponent(const Real& x) : n(0) { m = mantissa(x, n); }
+
+  friend With_exponent operator*(const With_exponent& x, const With_exponent& y)
+  {
+    return With_exponent(Real(x.m * y.m), x.n + y.n);
+  }
+  friend With_exponent operator+(const With_exponent& x, const With_exponent& y)
+  {
+    const int larger = (std::max)(x.n, y.n);
+    return With_exponent(Real(x.scaled_down(larger) + y.scaled_down(larger)), larger);
+  }
+
+  Real scaled_down(int larger) const
+  {
+    using std::ldexp;
+    return ldexp(m, (std::max)(n - larger, -950));
+  }
+};
+
+// The two sides, divided by a common power of two, of numbers of which the ratio is beyond the range of the filter.
+template <typename Real>
+std::pair<Real, Real> ptolemy_sides_by_exponents(const Quad<Real>& q)
+{
+  typedef With_exponent<Real> Number;
+  const Quad<Number> x{Number(q.e), Number(q.a), Number(q.b), Number(q.c), Number(q.d),
+                       Number(q.i), Number(q.j), Number(q.k), Number(q.l)};
+  const std::pair<Number, Number> sides = ptolemy_sides(x);
+  const int larger = (std::max)(sides.first.n, sides.second.n);
+  return std::make_pair(sides.first.scaled_down(larger), sides.second.scaled_down(larger));
+}
+
 // The relative difference (left - right) / (left + right) of the sides, as far as it is known.
 struct Relative_difference
 {
   double value, error;
 };
 
-// \return `false` if the numbers are too far apart (or are no numbers)
+// \return `false` if a number may have lost digits by underflow (or is no positive number)
 template <typename Real>
-bool filtered_difference(Quad<Real> q, Relative_difference& difference)
+bool filtered_difference(const Quad<Real>& q, Relative_difference& difference)
 {
+  Quad<Real> scaled = q;
   if(!is_in_filter_range(q))
-    scale_by_powers_of_two(q);
-  if(!is_in_filter_range(q))
+    scale_by_powers_of_two(scaled);
+  const bool is_near_one = is_in_filter_range(scaled);
+  if(!is_near_one && !is_in_range(q, 1e-270))
     return false;
-  const std::pair<Real, Real> sides = ptolemy_sides(q);
+  const std::pair<Real, Real> sides = is_near_one ? ptolemy_sides(scaled) : ptolemy_sides_by_exponents(q);
   difference.value = static_cast<double>(Real((sides.first - sides.second) / (sides.first + sides.second)));
   difference.error = filter_error<Real>() + 1e-15 * std::fabs(difference.value);
   return std::isfinite(difference.value);
@@ -295,15 +352,6 @@ template <typename NT>
 constexpr bool has_range_of_double()
 {
   return std::numeric_limits<NT>::max_exponent <= std::numeric_limits<double>::max_exponent;
-}
-
-// x 2^-exponent in [1/2, 1)
-template <typename NT>
-NT mantissa(const NT& x, int& exponent)
-{
-  using std::ldexp;
-  std::frexp(static_cast<double>(x), &exponent);
-  return ldexp(x, -exponent);
 }
 
 // (a c + b d) / e by mantissas and exponents: no intermediate result over- or underflows

@@ -48,6 +48,9 @@ public:
   // what was decided, and how, and whether the triangulation is Delaunay
   Delaunay_flipper<Length>& flipper() { return *flipper_; }
 
+  // evaluations at one vertex, of all calls of relax()
+  std::size_t number_of_probes() const { return number_of_probes_; }
+
   // spent on finding and flipping edges, and on evaluations because of that
   double seconds_of_flips() const { return seconds_; }
 
@@ -132,6 +135,7 @@ private:
 
   Probe probe(Index v, double target, double u)
   {
+    ++number_of_probes_;
     this->set_scale(v, std::exp(u / 2));
     std::vector<Index> candidates;
     t_.for_each_outgoing(v, [&](Index h)
@@ -212,6 +216,7 @@ private:
   std::unique_ptr<Delaunay_flipper<Length> > flipper_;
   Observer& observer_;
   double seconds_ = 0;
+  std::size_t number_of_probes_ = 0;
   bool is_worn_ = false; // some length is known less well than to rounding
 };
 

@@ -119,7 +119,7 @@ public:
         return Status::OK;
       if(!visitor_.go_further())
         return Status::STOPPED_BY_VISITOR;
-      if(iteration == options_.number_of_iterations || (is_careful() && has_stopped()))
+      if(iteration == options_.number_of_iterations || (is_careful() && (has_stopped() || is_relaxing_in_vain())))
         return Status::ITERATIONS_EXHAUSTED;
       if(!solver_.has_factor() && !solver_.factorize(energy_.weights()))
         return Status::SINGULAR_PROBLEM;
@@ -146,6 +146,15 @@ private:
       return false;
     const auto extremes = std::minmax_element(history.end() - a_while - 1, history.end());
     return *extremes.second - *extremes.first <= 1e-6 * *extremes.second;
+  }
+
+  // Where there is a solution within reach, each vertex is as a rule evaluated by itself at most 30 times, and 3 times in a step;
+  // among needles of which the minimum is not to be found, thousands of times.
+  bool is_relaxing_in_vain() const
+  {
+    if constexpr(Energy::has_flips)
+      return double(energy_.number_of_probes()) > 1000 + 10. * double(options_.number_of_iterations) * double(target_.size());
+    return false;
   }
 
   // Near the rounding floor, however high that is, and without gain for a while: what is left to do is up to the wider type.
@@ -436,7 +445,7 @@ private:
         for(std::uint32_t v = 0; v < r.size(); ++v)
           if(std::abs(r[v]) > tolerable && std::abs(r[v] - (1 - t) * residual_[v]) > tolerable)
             outliers.emplace_back(-std::abs(r[v]), v);
-        if(outliers.empty())
+        if(outliers.empty() || is_relaxing_in_vain())
           break;
         std::sort(outliers.begin(), outliers.end());
         for(const auto& outlier : outliers)
