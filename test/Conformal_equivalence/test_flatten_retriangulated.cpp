@@ -599,6 +599,266 @@ BOOST_AUTO_TEST_CASE(borders_that_need_the_double)
   BOOST_TEST(doubled > 0u);
 }
 
+// --- the double, folded -------------------------------------------------------------------------
+
+namespace {
+
+typedef CE::internal::Surface_double<double>  Surface_double;
+typedef CE::internal::Folded_double<double>   Folded_double;
+typedef CE::internal::Edge_graph              Edge_graph;
+
+// Flat inside, with turning angles of the one border that are drawn at random.
+Conditions random_border_angles(const Triangulation& t, double most, unsigned seed)
+{
+  std::vector<Index> border;
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(t.is_border_vertex(v))
+      border.push_back(v);
+  std::vector<double> turning = random_numbers(border.size(), most, seed);
+  double mean = 0;
+  for(double k : turning)
+    mean += k / double(turning.size());
+  Conditions conditions(t);
+  for(std::size_t i = 0; i < border.size(); ++i)
+    conditions.prescribe_angle_sum(border[i], pi - (turning[i] - mean + 2 * pi / double(border.size())));
+  return conditions;
+}
+
+Edge_graph graph_of_all(const Triangulation& t)
+{
+  Edge_graph graph;
+  graph.set_edges(t);
+  graph.set_free(std::vector<char>(t.number_of_vertices(), 1));
+  return graph;
+}
+
+// Flips of edges of the double that are drawn at random, mostly not in pairs of mirror images.
+std::size_t flip_at_random(Triangulation& d, Folded_double& folded, Edge_graph& graph, std::size_t times, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::size_t flips = 0;
+  for(std::size_t i = 0; i < times; ++i)
+  {
+    const Index e = Index(random() % d.number_of_edges());
+    if(!d.is_flippable(e))
+      continue;
+    d.flip_edge(e, CE::internal::ptolemy_length(d, e));
+    folded.part(e);
+    for(Index f : { e, folded.mirror(e) })
+      graph.set_edge(folded, folded.link(f));
+    ++flips;
+  }
+  return flips;
+}
+
+// A wheel with one border edge nearly as long as the two spokes at its ends.
+Triangulation kite(Index n, double spoke)
+{
+  Triangulation t = triangulation(cone(n, 1.));
+  for(Index e = 0; e < t.number_of_edges(); ++e)
+  {
+    const Index v = t.origin(t.edge_halfedge(e)), w = t.target(t.edge_halfedge(e));
+    t.set_length(e, v == 0 || w == 0 ? spoke : v + w == 3 ? 1.93 * spoke : 1);
+  }
+  return t;
+}
+
+// What metrics on the double there are to test: triangles that flips inside cannot help.
+struct Doubled_problem
+{
+  Triangulation t;
+  Conditions conditions;
+};
+
+std::vector<Doubled_problem> doubled_problems()
+{
+  std::vector<Doubled_problem> result;
+  for(Index n : { 4, 5 })
+    result.push_back({kite(n, 1.5), Conditions(kite(n, 1.5))});
+  result.push_back({kite(4, 1.5), random_border_angles(kite(4, 1.5), 2.6, 1)});
+  const Triangulation land = triangulation(random_height_field(16, .2, 5));
+  result.push_back({land, random_border_angles(land, 2.8, 5)});
+  Triangulation two = triangulation(together({ cone(4, 1.), torus(4, 5) })); // a closed surface beside one with a border
+  const Triangulation first = kite(4, 1.5);
+  for(Index e = 0; e < first.number_of_edges(); ++e)
+    two.set_length(e, first.length(e));
+  result.push_back({two, Conditions(two)});
+  return result;
+}
+
+} // namespace
+
+// The matrix is P^T A P / 2 for the A of the double, before flips that of the surface itself, whatever is flipped.
+BOOST_AUTO_TEST_CASE(matrix_of_the_folded_double)
+{
+  for(const Soup& soup : { hill(3, .4), annulus(2, 7, .3) })
+  {
+    const Triangulation t = triangulation(soup);
+    const Index n = t.number_of_vertices();
+    const Surface_double twofold(t);
+    Triangulation d = twofold.triangulation;
+    Folded_double folded(t, twofold, d);
+    BOOST_TEST(folded.number_of_vertices() == n);
+    BOOST_TEST(folded.number_of_edges() == t.number_of_edges());
+    Edge_graph graph;
+    graph.set_edges(folded);
+    graph.set_free(std::vector<char>(n, 1));
+    const std::vector<double> u = random_numbers(n, .3, 5);
+    CE::internal::Conformal_energy<double> on_surface(t);
+    on_surface.evaluate(u);
+    std::size_t flips = 0;
+    for(std::size_t times : { 0, 3, 40, 400 })
+    {
+      flips += flip_at_random(d, folded, graph, times, unsigned(times));
+      CE::internal::Conformal_energy<double> on_double(d);
+      on_double.evaluate(folded.spread(u));
+      const Edge_graph whole = graph_of_all(d);
+      BOOST_TEST(graph.ends.size() == folded.number_of_edges());
+      const std::vector<double> w = on_double.weights(), folded_w = folded.fold_weights(w);
+      const auto lower = CE::internal::assemble_lower(graph, folded_w, std::vector<double>(n, 0));
+      double size = 0;
+      for(double x : w)
+        size = (std::max)(size, std::abs(x));
+      const double tolerance = 1e-13 * size;
+      for(Index v = 0; v < n; ++v)
+      {
+        std::vector<double> x(n, 0);
+        x[v] = 1;
+        const std::vector<double> column = graph.product(folded_w, x), expected = folded.fold(whole.product(w, folded.spread(x)));
+        const std::vector<double> of_surface = graph_of_all(t).product(on_surface.weights(), x);
+        for(Index i = 0; i < n; ++i)
+        {
+          BOOST_TEST(std::abs(column[i] - expected[i]) <= tolerance);
+          if(i >= v)
+            BOOST_TEST(std::abs(lower.coeff(int(i), int(v)) - expected[i]) <= tolerance);
+          if(times == 0)
+            BOOST_TEST(std::abs(of_surface[i] - expected[i]) <= tolerance);
+        }
+      }
+      const std::vector<double> sums = folded.fold(on_double.angle_sums());
+      for(Index v = 0; times == 0 && v < n; ++v)
+        BOOST_TEST(std::abs(sums[v] - on_surface.angle_sums()[v]) <= 1e-13);
+    }
+    BOOST_TEST(flips > 100u);
+    BOOST_TEST(folded.number_of_edges() > t.number_of_edges() + t.number_of_edges() / 2);
+    folded.join();
+    BOOST_TEST(folded.number_of_edges() == t.number_of_edges());
+  }
+}
+
+// On the double, vertex and image have the same u, bit by bit, in all digits; it is the solution on the double taken as any closed surface.
+BOOST_AUTO_TEST_CASE(symmetry_on_the_double)
+{
+  std::size_t doubled = 0;
+  for(const Doubled_problem& p : doubled_problems())
+    for(Retriangulation mode : { Retriangulation::WHEN_NEEDED, Retriangulation::ALWAYS })
+      for(CE::Newton_strategy strategy : { CE::Newton_strategy::LINE_SEARCH, CE::Newton_strategy::TRUST_REGION })
+      {
+        const Index n = p.t.number_of_vertices();
+        const Metric metric = CE::compute_conformal_metric(p.t, p.conditions, params::retriangulation(mode).newton_strategy(strategy));
+        BOOST_TEST_REQUIRE(bool(metric), CE::message(metric.status));
+        BOOST_TEST(metric.statistics.residual <= (std::max)(1e-12, metric.statistics.residual_floor));
+        if(!metric.is_doubled)
+          continue;
+        ++doubled;
+        const Surface_double twofold(p.t);
+        const Folded_double folded(p.t, twofold, metric.triangulation);
+        const Conditions conditions = twofold.conditions(p.conditions);
+        BOOST_TEST_REQUIRE(metric.log_scale_factors.size() == n);
+        BOOST_TEST_REQUIRE(metric.scale_factors.size() == twofold.triangulation.number_of_vertices());
+        const std::vector<double> residual = CE::internal::wide_residual(metric.triangulation, metric.scale_factors, conditions);
+        const double rounding = 4e-15 + metric.statistics.angle_defect_spread; // of the angles given, which are made to fit
+        double sum = 0;
+        bool is_scaled = false;
+        for(Index v = 0; v < n; ++v)
+        {
+          const Index w = folded.image(v);
+          BOOST_TEST(metric.scale_factors[w].hi == metric.scale_factors[v].hi);
+          BOOST_TEST(metric.scale_factors[w].lo == metric.scale_factors[v].lo);
+          for(Index x : { v, w })
+            BOOST_TEST(std::abs(residual[x]) <= (folded.is_on_axis(v) ? 2 : 1) * (metric.statistics.residual + rounding));
+          sum += metric.log_scale_factors[v];
+          is_scaled = is_scaled || p.conditions.is_fixed(v);
+        }
+        if(!is_scaled)
+          BOOST_TEST(std::abs(sum) <= 1e-12 * n);
+
+        const Metric literal = CE::compute_conformal_metric(twofold.triangulation, conditions, params::retriangulation(mode));
+        BOOST_TEST_REQUIRE(bool(literal), CE::message(literal.status));
+        // components without a fixed u have their own scale on the double
+        const CE::Surface_components pieces = CE::connected_components(p.t);
+        std::vector<double> shift(pieces.components.size(), 0);
+        std::vector<char> is_known(shift.size(), 0);
+        for(Index v = 0; v < n; ++v)
+        {
+          const std::size_t c = pieces.component_of_vertex[v];
+          const double difference = literal.log_scale_factors[v] - metric.log_scale_factors[v];
+          if(!is_known[c])
+            shift[c] = is_scaled && pieces.components[c].number_of_borders > 0 ? 0 : difference;
+          is_known[c] = 1;
+          BOOST_TEST(std::abs(difference - shift[c]) <= 1e-11);
+        }
+      }
+  BOOST_TEST(doubled >= 10u);
+}
+
+// Newton's method in the wide type, too, has one unknown for both, and gains digits quadratically.
+BOOST_AUTO_TEST_CASE(wide_steps_on_the_folded_double)
+{
+  const Doubled_problem p = doubled_problems()[3];
+  const Metric metric = CE::compute_conformal_metric(p.t, p.conditions);
+  BOOST_TEST_REQUIRE(bool(metric));
+  BOOST_TEST_REQUIRE(metric.is_doubled);
+  const Surface_double twofold(p.t);
+  Folded_double folded(p.t, twofold, metric.triangulation);
+  for(Index e : metric.flips)
+    folded.part(e);
+  const Index n = p.t.number_of_vertices();
+  Edge_graph graph;
+  graph.set_edges(folded);
+  std::vector<char> free(n, 1);
+  free[0] = 0;
+  graph.set_free(free);
+  std::vector<CE::internal::Double_double> s(metric.scale_factors.begin(), metric.scale_factors.begin() + n);
+  for(Index v = 1; v < n; ++v)
+    s[v] = s[v] * (1 + 1e-5 * std::sin(double(v)));
+  double size = 1;
+  for(int step = 0; step < 5; ++step)
+  {
+    BOOST_TEST_REQUIRE(CE::internal::add_wide_newton_step(folded, graph, CE::internal::scaled_wide_residual(folded, s, p.conditions), s));
+    const double before = size;
+    size = 0;
+    const std::vector<double> residual = CE::internal::wide_residual(folded, s, p.conditions);
+    for(Index v = 1; v < n; ++v) // what the angles miss Gauss and Bonnet's formula by is left at the vertex held
+      size = (std::max)(size, std::abs(residual[v]));
+    if(step > 0)
+      BOOST_TEST(size <= (std::max)(1e-27, 1e6 * before * before));
+  }
+  BOOST_TEST(size <= 1e-27);
+}
+
+// One solver, conditions that need the double and such that do not: each result is that of a new solver.
+BOOST_AUTO_TEST_CASE(again_after_the_double)
+{
+  const Triangulation t = triangulation(random_height_field(16, .2, 5));
+  CE::Conformal_metric_solver<> solver(t);
+  std::size_t doubled = 0;
+  for(double most : { 2.8, 0., 2.8, 1., 2.8 })
+  {
+    const Conditions conditions = most == 0 ? Conditions(t) : random_border_angles(t, most, 5);
+    const Metric metric = solver.solve(conditions), fresh = CE::compute_conformal_metric(t, conditions);
+    BOOST_TEST_REQUIRE(bool(metric));
+    BOOST_TEST_REQUIRE(bool(fresh));
+    BOOST_TEST(metric.is_doubled == fresh.is_doubled);
+    BOOST_TEST(metric.lost_border_edges == fresh.lost_border_edges);
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      BOOST_TEST(std::abs(metric.log_scale_factors[v] - fresh.log_scale_factors[v]) <= 1e-11);
+    doubled += metric.is_doubled;
+  }
+  BOOST_TEST(doubled >= 2u);
+  BOOST_TEST(doubled < 5u);
+}
+
 // --- meshes -------------------------------------------------------------------------------------
 
 namespace {

@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/internal/double.h>
 #include <CGAL/Conformal_equivalence/internal/energy.h>
 #include <CGAL/Conformal_equivalence/internal/feasibility.h>
+#include <CGAL/Conformal_equivalence/internal/folded_double.h>
 #include <CGAL/Conformal_equivalence/internal/ideal_delaunay_energy.h>
 #include <CGAL/Conformal_equivalence/internal/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/newton.h>
@@ -242,6 +243,8 @@ private:
     }
   };
   typedef internal::Ideal_delaunay_energy<NT, Flip_observer> Flipping_energy;
+  typedef internal::Folded_flip_observer<NT, Solver_traits> Folded_flip_observer;
+  typedef internal::Folded_energy<NT, Folded_flip_observer> Folded_energy;
 
   template <typename Initial, typename Visitor>
   void solve(const Conformal_conditions<NT>& conditions, const Initial& initial, Retriangulation retriangulation,
@@ -265,7 +268,7 @@ private:
     if(may_be_helped_by_flips(result) && has_border() && border_edges == Border_edges::FLIPPABLE)
     {
       discard(result, stopwatch.seconds());
-      solve_on_double(conditions, retriangulation, options, visitor, result);
+      solve_on_double(conditions, initial, retriangulation, options, visitor, result);
     }
   }
 
@@ -328,19 +331,80 @@ private:
     linear_.set_edges(triangulation_);
     linear_has_flips_ = true;
     Flip_observer observer{result.flips, linear_, 0};
+    minimize_flipping(result.triangulation, observer, [&] { return Flipping_energy(result.triangulation, observer); },
+                      conditions, initial, retriangulation, options, visitor, result);
+  }
+
+  // On the double, where border edges can be flipped, too. The unknowns are those of the surface.
+  template <typename Initial, typename Visitor>
+  void solve_on_double(Conformal_conditions<NT> conditions, const Initial& initial, Retriangulation retriangulation,
+                       internal::Newton_options options, Visitor& visitor, Metric& result)
+  {
+    options.is_careful = true;
+    visitor.on_stage(Stage::SOLVE);
+    if(!check(conditions, false, result))
+      return;
+    const internal::Surface_double<NT> twofold(triangulation_);
+    result.is_doubled = result.statistics.is_doubled = true;
+    result.triangulation = twofold.triangulation;
+    internal::Folded_double<NT> folded(triangulation_, twofold, result.triangulation);
+    linear_.change_edges(folded); // the factor still serves, as the matrix is that of the surface until edges are flipped
+    linear_has_flips_ = true;
+    Folded_flip_observer observer{result.flips, linear_, folded, 0};
+    minimize_flipping(folded, observer, [&] { return Folded_energy(result.triangulation, folded, observer); },
+                      conditions, initial, retriangulation, options, visitor, result);
+    if(is_success(result.status))
+      result.lost_border_edges = twofold.lost_border_edges(triangulation_, result.triangulation, result.flips);
+  }
+
+  // Minimizes the energy on the triangulation of `result`, or, what is then `t`, its folding, with flips.
+  template <typename Surface, typename Observer, typename Make_energy, typename Initial, typename Visitor>
+  void minimize_flipping(const Surface& t, Observer& observer, const Make_energy& make_energy,
+                         const Conformal_conditions<NT>& conditions, const Initial& initial, Retriangulation retriangulation,
+                         const internal::Newton_options& options, Visitor& visitor, Metric& result)
+  {
     const internal::Stopwatch stopwatch;
     if(retriangulation == Retriangulation::ALWAYS && !make_delaunay(observer, result))
       return;
     observer.number_of_lasting_flips = result.flips.size();
     const double seconds = stopwatch.seconds();
-    Flipping_energy energy(result.triangulation, observer);
-    minimize(result.triangulation, energy, conditions, initial, options, visitor, result);
+    auto energy = make_energy();
+    minimize(t, energy, conditions, initial, options, visitor, result);
+    if constexpr(!std::is_same<Surface, Triangulation>::value)
+      unfold(t, energy, conditions, options.tolerance, result);
     result.statistics.number_of_flips = result.flips.size();
     const internal::Stopwatch verdict_stopwatch;
     tell_about_flips(energy.flipper(), result);
     result.statistics.seconds.flips = seconds + energy.seconds_of_flips() + verdict_stopwatch.seconds();
     result.statistics.conformal_class = retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
                                                                                    : Conformal_class::GIVEN_TRIANGULATION;
+  }
+
+  // Gives the images of vertices their factors, too. Where the triangulation is not symmetric, as the diagonal of a trapezoid is
+  // not, its lengths are symmetric up to rounding only; then so are the angle sums.
+  void unfold(const internal::Folded_double<NT>& t, Folded_energy& energy, Conformal_conditions<NT> conditions,
+              double tolerance, Metric& result) const
+  {
+    result.scale_factors = t.spread(result.scale_factors);
+    if(!is_success(result.status))
+      return;
+    for(Index v : result.active_bounds)
+      conditions.fix_log_scale_factor(v, NT(conditions.lower_bound(v)));
+    Statistics& statistics = result.statistics;
+    const double residual = internal::largest_residual(t, result.scale_factors, conditions), before = statistics.residual;
+    if(residual <= before)
+      return;
+    statistics.residual = statistics.residuals.back() = residual;
+    if(residual <= (std::max)(tolerance, before))
+      return;
+    double rounding = 0; // of lengths
+    for(Index e = 0; e < result.triangulation.number_of_edges(); ++e)
+      rounding = (std::max)(rounding, energy.flipper().length_error(e));
+    statistics.residual_floor = (std::max)(statistics.residual_floor, before + 8 * rounding * largest_sensitivity(energy));
+    result.amount = residual;
+    result.status = residual <= statistics.residual_floor ? Status::CONVERGED_TO_ROUNDING : Status::ITERATIONS_EXHAUSTED;
+    if(!is_success(result.status))
+      result.scale_factors.clear();
   }
 
   static void tell_about_flips(internal::Delaunay_flipper<NT>& flipper, Metric& result)
@@ -355,31 +419,10 @@ private:
                                                           : Delaunay_property::NO;
   }
 
-  // On the double, where border edges can be flipped, too.
-  template <typename Visitor>
-  void solve_on_double(const Conformal_conditions<NT>& conditions, Retriangulation retriangulation,
-                       const internal::Newton_options& options, Visitor& visitor, Metric& result)
-  {
-    const internal::Surface_double<NT> twofold(triangulation_);
-    const std::size_t discarded = result.statistics.number_of_discarded_iterations;
-    Conformal_metric_solver solver(twofold.triangulation, linear_.traits());
-    solver.solve_flipping(twofold.conditions(conditions), internal_np::Param_not_found(), retriangulation, options, visitor, result);
-    linear_has_flips_ = true; // the traits may share the factor of the other solver
-    result.is_doubled = result.statistics.is_doubled = true;
-    result.statistics.number_of_discarded_iterations = discarded;
-    if(is_success(result.status))
-    {
-      result.log_scale_factors.resize(triangulation_.number_of_vertices());
-      result.lost_border_edges = twofold.lost_border_edges(triangulation_, result.triangulation, result.flips);
-    }
-    const auto is_image = [&](Index v) { return v >= triangulation_.number_of_vertices(); };
-    for(std::vector<Index>* vertices : {&result.vertices, &result.active_bounds})
-      vertices->erase(std::remove_if(vertices->begin(), vertices->end(), is_image), vertices->end());
-  }
-
   // The intrinsic Delaunay triangulation of the metric given, by Euclidean flips. Triangles may be degenerate, or violate their
   // inequality by the rounding of their lengths: then they count as degenerate.
-  bool make_delaunay(Flip_observer& observer, Metric& result) const
+  template <typename Observer>
+  bool make_delaunay(Observer& observer, Metric& result) const
   {
     const auto length = [&](Index h) { return triangulation_.halfedge_length(h); };
     for(Index h = 0; h < triangulation_.number_of_halfedges(); h += 3)
@@ -390,7 +433,7 @@ private:
       result.status = Status::DEGENERATE_METRIC;
       return false;
     }
-    std::vector<Index> all(triangulation_.number_of_edges()), flipped;
+    std::vector<Index> all(result.triangulation.number_of_edges()), flipped;
     std::iota(all.begin(), all.end(), Index(0));
     internal::Delaunay_flipper<NT> flipper(result.triangulation);
     flipper.flip_to_delaunay(std::vector<double>(), std::move(all), internal::Flip_rule::EUCLIDEAN, [&](Index e)
@@ -403,9 +446,9 @@ private:
     return true;
   }
 
-  // Newton's method and what follows, on `t`, which the energy may flip.
-  template <typename Any_energy, typename Initial, typename Visitor>
-  void minimize(const Triangulation& t, Any_energy& energy, const Conformal_conditions<NT>& conditions, const Initial& initial,
+  // Newton's method and what follows, on `t`, which the energy may flip: a triangulation, or a folded one.
+  template <typename Surface, typename Any_energy, typename Initial, typename Visitor>
+  void minimize(const Surface& t, Any_energy& energy, const Conformal_conditions<NT>& conditions, const Initial& initial,
                 const internal::Newton_options& options, Visitor& visitor, Metric& result)
   {
     linear_.set_free(free_vertices(conditions));
@@ -435,8 +478,8 @@ private:
 
   // The last steps; then edges are flipped that are not Delaunay by so little that rounding has hidden it on the way.
   // Angle sums hardly differ between both triangulations, but as there may be needles they are made right again.
-  template <typename Any_energy>
-  void finish(const Triangulation& t, Any_energy& energy, const Conformal_conditions<NT>& conditions,
+  template <typename Surface, typename Any_energy>
+  void finish(const Surface& t, Any_energy& energy, const Conformal_conditions<NT>& conditions,
               const internal::Lower_bounds& bounds, Vertex_vector& u, double tolerance, Metric& result)
   {
     const std::size_t steps = result.statistics.residuals.size();
@@ -601,8 +644,8 @@ private:
   // gradients, every system is solved for as many digits as can be gained. Where that comes to nothing before the tolerance is
   // reached, the matrix is that of the wide metric, factorized anew; then all of the linear algebra runs in the wide type.
   // A step with error e^3 in s is as good as any: what counts is the s that comes out.
-  template <typename Any_energy>
-  void refine(const Triangulation& t, const Any_energy& energy, const Conformal_conditions<NT>& conditions,
+  template <typename Surface, typename Any_energy>
+  void refine(const Surface& t, const Any_energy& energy, const Conformal_conditions<NT>& conditions,
               Vertex_vector& u, double tolerance, Metric& result)
   {
     center(u);
@@ -730,8 +773,8 @@ private:
 
   // The same with some of the bounds active, as the solution has them: where Newton's method could not tell by
   // rounding, the wide type does.
-  template <typename Any_energy>
-  void refine_within_bounds(const Triangulation& t, const Any_energy& energy, const Conformal_conditions<NT>& conditions,
+  template <typename Surface, typename Any_energy>
+  void refine_within_bounds(const Surface& t, const Any_energy& energy, const Conformal_conditions<NT>& conditions,
                             const internal::Lower_bounds& bounds, Vertex_vector& u, double tolerance, Metric& result)
   {
     std::vector<char> active(u.size(), 0);
@@ -755,7 +798,8 @@ private:
   }
 
   // Activates the bounds that are violated, and releases those where the angle sum is too large. Returns whether there were any.
-  bool exchange_bounds(const Triangulation& t, const Conformal_conditions<NT>& conditions, const internal::Lower_bounds& bounds,
+  template <typename Surface>
+  bool exchange_bounds(const Surface& t, const Conformal_conditions<NT>& conditions, const internal::Lower_bounds& bounds,
                        double tolerance, const Metric& result, std::vector<char>& active) const
   {
     const double most = (std::max)(tolerance, result.statistics.residual);
@@ -831,8 +875,8 @@ private:
 
   // Names the triangles that the metric found breaks: exactly for a solution, as the last
   // evaluation saw them otherwise.
-  template <typename Any_energy>
-  void judge(const Triangulation& t, const Any_energy& energy, Metric& result) const
+  template <typename Surface, typename Any_energy>
+  void judge(const Surface& t, const Any_energy& energy, Metric& result) const
   {
     if(!is_success(result.status))
     {

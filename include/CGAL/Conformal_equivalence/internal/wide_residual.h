@@ -238,9 +238,8 @@ std::vector<Number> wide_weights(const Intrinsic_triangulation<NT>& t, const std
 }
 
 // The residual as it is, not scaled.
-template <typename NT, typename Wide>
-std::vector<double> wide_residual(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s,
-                                  const Conformal_conditions<NT>& conditions)
+template <typename Surface, typename Wide, typename NT>
+std::vector<double> wide_residual(const Surface& t, const std::vector<Wide>& s, const Conformal_conditions<NT>& conditions)
 {
   Scaled_vector result = scaled_wide_residual(t, s, conditions);
   result.scale_to_one();

@@ -11,6 +11,10 @@
 // Vectors run over all vertices and are zero at those that are not free. Some of the
 // free vertices can be held for a while: the matrix is then restricted to the others,
 // but its factor keeps its pattern, and a factor made before still serves.
+//
+// All of this is asked of a `Surface` only: numbers of vertices and edges, and the ends of every edge. It is a
+// triangulation, or one that is folded (folded_double.h), whose mirror images are the same vertices and edges: then A is that
+// of one half.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
@@ -60,17 +64,20 @@ struct Edge_graph
   bool is_free(Index v) const { return free_index[v] != Intrinsic_triangulation<>::null_index; }
   bool is_held(Index v) const { return !held.empty() && held[v] != 0; }
 
-  template <typename NT>
-  void set_edges(const Intrinsic_triangulation<NT>& t)
+  template <typename Surface>
+  void set_edges(const Surface& t)
   {
     ends.resize(t.number_of_edges());
     for(Index e = 0; e < t.number_of_edges(); ++e)
       set_edge(t, e);
   }
 
-  template <typename NT>
-  void set_edge(const Intrinsic_triangulation<NT>& t, Index e)
+  // `e` may be a new one, the next in order.
+  template <typename Surface>
+  void set_edge(const Surface& t, Index e)
   {
+    if(e == ends.size())
+      ends.emplace_back();
     ends[e] = std::make_pair(t.origin(t.edge_halfedge(e)), t.target(t.edge_halfedge(e)));
   }
 
@@ -308,8 +315,8 @@ public:
   std::size_t number_of_factorizations() const { return number_of_factorizations_; }
   std::size_t number_of_regularized_rows() const { return number_of_regularized_rows_; }
 
-  template <typename NT>
-  void set_edges(const Intrinsic_triangulation<NT>& t)
+  template <typename Surface>
+  void set_edges(const Surface& t)
   {
     graph_.set_edges(t);
     graph_.set_free(std::vector<char>(t.number_of_vertices(), 0));
@@ -317,10 +324,18 @@ public:
   }
 
   // The ends of an edge have changed: the kept factor still serves as preconditioner, but the next one has another pattern.
-  template <typename NT>
-  void change_edge(const Intrinsic_triangulation<NT>& t, std::uint32_t e)
+  template <typename Surface>
+  void change_edge(const Surface& t, std::uint32_t e)
   {
     graph_.set_edge(t, e);
+    factor_.forget_pattern();
+  }
+
+  // The same for all edges, whose number may be another one. \pre the vertices are the same
+  template <typename Surface>
+  void change_edges(const Surface& t)
+  {
+    graph_.set_edges(t);
     factor_.forget_pattern();
   }
 

@@ -26,8 +26,8 @@ namespace internal {
 
 // The lower half of A (see Laplacian_solver.h) for the scale factors s^2; rows without weight, and those of held vertices, are
 // those of the identity.
-template <typename NT, typename Wide>
-Eigen::SparseMatrix<Wide> wide_matrix(const Intrinsic_triangulation<NT>& t, const Edge_graph& graph, const std::vector<Wide>& s)
+template <typename Surface, typename Wide>
+Eigen::SparseMatrix<Wide> wide_matrix(const Surface& t, const Edge_graph& graph, const std::vector<Wide>& s)
 {
   typedef std::uint32_t Index;
   const std::vector<Wide> w = wide_weights<Wide>(t, s);
@@ -55,9 +55,8 @@ Eigen::SparseMatrix<Wide> wide_matrix(const Intrinsic_triangulation<NT>& t, cons
 }
 
 // Multiplies `s` by e^{d / 2} for the step d. Returns whether the matrix could be factorized.
-template <typename NT, typename Wide>
-bool add_wide_newton_step(const Intrinsic_triangulation<NT>& t, const Edge_graph& graph, const Scaled_vector& residual,
-                          std::vector<Wide>& s)
+template <typename Surface, typename Wide>
+bool add_wide_newton_step(const Surface& t, const Edge_graph& graph, const Scaled_vector& residual, std::vector<Wide>& s)
 {
   using std::ldexp;
   typedef Eigen::SparseMatrix<Wide> Matrix;
