@@ -2,16 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // check_flattening INPUT.off|.obj OUTPUT.obj [--cones FILE] [--free-border] [--cross-ratio T] [--two-sides T]
-//                  [--border T] [--weights T] [--angle T]
+//                  [--border T] [--weights T] [--angle T] [--sphere | --disk] [--barycentre T] [--flips] [--lost N]
 // FILE has a line `vertex-index angle-in-degrees` or `vertex-index free` for each cone, counted from 0; # begins a comment.
-// Exit status: 0 the output is a discretely conformal flattening of the input, 1 it is
-// not, 2 something cannot be read. See include/check_flattening.h.
+// --sphere: the vertices of the output are points of the unit sphere; --disk: the layout is inscribed to the unit circle. Both may be of a
+// refinement of the input. --flips: edges were flipped on the way, so that cross ratios are not those of the input. --lost N: exactly N
+// triangles are not positive.
+// Exit status: 0 the output is a discretely conformal flattening, or map to the sphere or the disk, of the input, 1 it is
+// not, 2 something cannot be read. See include/check_flattening.h and include/check_image.h.
 
 #include "include/check_flattening.h"
+#include "include/check_image.h"
 
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,10 +29,32 @@ checking::Cones read_cones(const std::string& file)
   return checking::read_cones(in);
 }
 
+int report(const checking::Verdict& verdict)
+{
+  std::cout << verdict;
+  return verdict.is_good() ? 0 : 1;
+}
+
+int check_disk(const checking::Surface& input, const checking::Surface& output, checking::Tolerances tolerances,
+               const checking::Image_tolerances& image)
+{
+  const checking::Image_verdict verdict = checking::check_disk(input, output, image);
+  std::cout << verdict;
+  if(verdict.is_refined || ! verdict.is_good())
+    return verdict.is_good() ? 0 : 1;
+  tolerances.border_keeps_its_lengths = false;
+  tolerances.lost_triangles = image.lost_triangles;
+  if(image.edges_were_flipped)
+    tolerances.cross_ratio = tolerances.weights = std::numeric_limits<checking::Real>::infinity();
+  return report(checking::check_flattening(input, output, tolerances));
+}
+
 int main(int argc, char* argv[])
 {
   std::vector<std::string> files;
   checking::Tolerances tolerances;
+  checking::Image_tolerances image;
+  bool is_sphere = false, is_disk = false;
   checking::Cones cones;
   try
   {
@@ -50,19 +77,35 @@ int main(int argc, char* argv[])
         tolerances.border_scale = number();
       else if(argument == "--weights")
         tolerances.weights = number();
+      else if(argument == "--sphere")
+        is_sphere = true;
+      else if(argument == "--disk")
+        is_disk = true;
+      else if(argument == "--barycentre")
+        image.barycentre = number();
+      else if(argument == "--flips")
+        image.edges_were_flipped = true;
+      else if(argument == "--lost")
+        tolerances.lost_triangles = image.lost_triangles = std::stoul(value());
       else
         files.push_back(argument);
     }
     if(files.size() != 2)
     {
       std::cerr << "check_flattening INPUT.off|.obj OUTPUT.obj [--cones FILE] [--free-border] [--cross-ratio T] [--two-sides T]"
-                   " [--border T] [--weights T] [--angle T]\n";
+                   " [--border T] [--weights T] [--angle T] [--sphere | --disk] [--barycentre T] [--flips] [--lost N]\n";
       return 2;
     }
-    const checking::Verdict verdict =
-      checking::check_flattening(checking::read_surface(files[0]), checking::read_surface(files[1]), tolerances, cones);
-    std::cout << verdict;
-    return verdict.is_good() ? 0 : 1;
+    const checking::Surface input = checking::read_surface(files[0]), output = checking::read_surface(files[1]);
+    if(is_sphere)
+    {
+      const checking::Image_verdict verdict = checking::check_sphere(input, output, image);
+      std::cout << verdict;
+      return verdict.is_good() ? 0 : 1;
+    }
+    if(is_disk)
+      return check_disk(input, output, tolerances, image);
+    return report(checking::check_flattening(input, output, tolerances, cones));
   }
   catch(const std::exception& e)
   {

@@ -188,6 +188,7 @@ struct Tolerances
 {
   Real cross_ratio = 1e-8, two_sides = 1e-10, border_scale = 1e-9, weights = 1e-8, angle = 1e-8;
   bool border_keeps_its_lengths = true;
+  std::size_t lost_triangles = 0; // exactly so many are not positive: none, unless rounding has cost some
 };
 
 // A figure together with how it compares with its tolerance: at most 1 is good.
@@ -209,14 +210,14 @@ struct Verdict
 {
   bool same_mesh = false;
   Worst cross_ratio, two_sides, border_scale, weights, angle, cone_angle;
-  std::size_t interior_edges = 0, border_edges = 0, interior_vertices = 0, not_positive_triangles = 0;
+  std::size_t interior_edges = 0, border_edges = 0, interior_vertices = 0, not_positive_triangles = 0, expected_not_positive = 0;
   std::size_t cones = 0, free_cones = 0, cones_not_inside = 0, pieces = 0, overlapping_pieces = 0;
 
   bool is_good() const
   {
     return same_mesh && cross_ratio.is_good() && two_sides.is_good() && border_scale.is_good()
         && weights.is_good() && angle.is_good() && cone_angle.is_good() && cones_not_inside == 0
-        && not_positive_triangles == 0 && overlapping_pieces == 0;
+        && not_positive_triangles == expected_not_positive && overlapping_pieces == 0;
   }
 };
 
@@ -243,6 +244,7 @@ public:
   Checker(const Surface& input, const Surface& output, const Tolerances& tolerances, const Cones& cones)
     : m_input(input), m_output(output), m_tolerances(tolerances), m_cones(cones)
   {
+    m_verdict.expected_not_positive = tolerances.lost_triangles;
     m_verdict.same_mesh = input.points == output.points && input.faces == output.faces && ! output.texture.empty();
     if(! m_verdict.same_mesh)
       return;

@@ -4,9 +4,11 @@
 #ifndef FLATTEN_MESH_FIGURES_H
 #define FLATTEN_MESH_FIGURES_H
 
+#include "image_figures.h"
 #include "mesh.h"
 #include "options.h"
 #include "results.h"
+#include "sphere.h"
 
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
@@ -17,6 +19,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <ostream>
@@ -62,6 +65,7 @@ struct Figures
   Report report;
   CE::Layout_verdict<Mesh> verdict;
   CE::Conformal_distortion<Mesh> distortion;
+  Image_figures image; // of the sphere or the disk
   std::size_t number_of_isolated_vertices = 0;
   std::size_t number_of_rounded_triangles = 0; // with --precision: those that are positive, but not in double
   double u_min = 0, u_max = 0;
@@ -110,12 +114,40 @@ inline void forget_rounded_triangles(Figures& figures)
     verdict.injectivity = CE::Injectivity::UNDECIDED;
 }
 
-inline void judge(const Result& result, Figures& figures)
+// On the sphere and on the disk all triangles were positive before they were rounded: the verdict is that of the points that are written.
+inline void take_over_verdict(Target target, const Result& drawn, Figures& figures)
+{
+  const Image_figures& image = figures.image;
+  CE::Layout_verdict<Mesh>& verdict = figures.verdict;
+  const bool is_wide = ! drawn.wide_image.empty(), is_sphere = target == Target::SPHERE;
+  verdict.flipped_faces.clear();
+  verdict.degenerate_faces.clear();
+  verdict.number_of_flipped_triangles = image.lost_faces.size() - image.number_of_flat_faces;
+  verdict.number_of_degenerate_triangles = image.number_of_flat_faces;
+  if(! image.lost_faces.empty())
+    verdict.injectivity = CE::Injectivity::NO;
+  else if(is_sphere ? std::abs(image.solid_angle - 4 * CGAL_PI) < 1e-6 : is_wide)
+    verdict.injectivity = CE::Injectivity::YES;
+  if(is_wide)
+    figures.number_of_rounded_triangles = lost_faces(drawn.mesh, drawn.image, is_sphere).size();
+  figures.report.layout_length_error = image.length_error;
+}
+
+// `drawn` is what is written: `given`, or what was made of it.
+inline void judge(const Options& options, const Result& given, Result& drawn, Figures& figures)
 {
   const Stopwatch watch;
-  figures.verdict = CE::verify_layout(result.mesh, result.uv);
-  figures.distortion = CE::compute_conformal_distortion(result.mesh, result.uv);
-  if(result.wide.is_used) // the triangles were found to be positive before they were rounded
+  if(options.target == Target::SPHERE)
+    lay_out_chords(drawn);
+  else
+    figures.verdict = CE::verify_layout(drawn.mesh, drawn.uv);
+  figures.distortion = CE::compute_conformal_distortion(drawn.mesh, drawn.uv);
+  if(options.target != Target::PLANE)
+  {
+    figures.image = judge_image(options, figures.report, given, drawn);
+    take_over_verdict(options.target, drawn, figures);
+  }
+  else if(drawn.wide.is_used) // the triangles were found to be positive before they were rounded
     forget_rounded_triangles(figures);
   figures.verifying_seconds = watch.seconds();
 }
@@ -184,13 +216,31 @@ inline const char* class_text(const CE::Statistics& s)
   }
 }
 
+inline const char* target_text(Target target)
+{
+  return target == Target::SPHERE ? "sphere" : target == Target::DISK ? "disk" : "plane";
+}
+
+// What only maps to the sphere and the disk have.
+inline void add_image(Target target, const Figures& figures, Lines& lines)
+{
+  const Image_figures& image = figures.image;
+  const auto add = [&](const char* name, double x) { if(! std::isnan(x)) lines.emplace_back(name, text(x)); };
+  add(target == Target::SPHERE ? "distance from sphere" : "distance from circle", image.distance_from_sphere);
+  add("solid angle / (4 pi)", image.solid_angle / (4 * CGAL_PI));
+  add("barycentre", image.barycentre);
+  add("cross ratio error", image.cross_ratio_error);
+}
+
 // Names and values, for the terminal and the page.
-inline Lines summary(const Mesh& mesh, const Figures& figures)
+inline Lines summary(const Options& options, const Mesh& mesh, const Figures& figures)
 {
   const CE::Statistics& s = figures.report.statistics;
   Lines lines;
   lines.emplace_back("mesh", text(mesh.number_of_vertices(), " vertices, ", mesh.number_of_faces(), " triangles"));
   add_topology(figures.report, lines);
+  if(options.target != Target::PLANE)
+    lines.emplace_back("target", target_text(options.target));
   if(figures.number_of_isolated_vertices != 0)
     lines.emplace_back("isolated vertices", text(figures.number_of_isolated_vertices, ", carried through"));
   lines.emplace_back("solver", text(s.number_of_iterations, " Newton steps, residual ", s.residual, " radians",
@@ -208,22 +258,27 @@ inline Lines summary(const Mesh& mesh, const Figures& figures)
   lines.emplace_back("log scale factor u", text("from ", figures.u_min, " to ", figures.u_max));
   lines.emplace_back("quasi-conformal factor", text("mean ", figures.distortion.mean_quasi_conformal_factor,
                                                      ", max ", figures.distortion.maximum_quasi_conformal_factor));
-  lines.emplace_back("flipped triangles", text(figures.verdict.number_of_flipped_triangles, " (exact)"));
+  lines.emplace_back("flipped triangles", text(figures.verdict.number_of_flipped_triangles, " (exact)",
+    options.target != Target::PLANE && figures.verdict.number_of_flipped_triangles != 0 ? ", by rounding" : ""));
   if(figures.verdict.number_of_degenerate_triangles != 0)
     lines.emplace_back("degenerate triangles", text(figures.verdict.number_of_degenerate_triangles, " (exact)"));
   if(figures.number_of_rounded_triangles != 0)
     lines.emplace_back("triangles too small", text(figures.number_of_rounded_triangles, " for double"));
   lines.emplace_back("injective", injective_text(figures));
-  lines.emplace_back("largest length error", text(figures.report.layout_length_error));
+  if(! std::isnan(figures.report.layout_length_error))
+    lines.emplace_back("largest length error", text(figures.report.layout_length_error));
+  if(options.target != Target::PLANE)
+    add_image(options.target, figures, lines);
   lines.emplace_back("seconds", text("read ", figures.reading_seconds, ", import ", s.seconds.import, ", solve ", s.seconds.solve,
-                                     ", cut ", s.seconds.cut, ", lay out ", s.seconds.layout, ", verify ", figures.verifying_seconds));
+                                     ", cut ", s.seconds.cut, ", lay out ", s.seconds.layout,
+                                     ", verify ", s.seconds.verify + figures.verifying_seconds));
   return lines;
 }
 
 inline void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, const Figures& figures)
 {
   out << options.input << '\n';
-  for(const auto& line : summary(mesh, figures))
+  for(const auto& line : summary(options, mesh, figures))
     out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
   for(const std::string& file : {options.obj, options.svg, options.html, options.report})
     if(! file.empty())
@@ -247,12 +302,29 @@ inline nlohmann::ordered_json json_lattices(const Report& report)
   return lattices;
 }
 
+// NaN becomes null.
+inline void add_json_image(const Options& options, const Figures& figures, nlohmann::ordered_json& json)
+{
+  const Image_figures& image = figures.image;
+  json["flipped_by_rounding"] = image.lost_faces.size();
+  json["cross_ratio_error"] = image.cross_ratio_error;
+  if(options.target == Target::DISK)
+    json["unit_circle_error"] = image.distance_from_sphere;
+  else
+  {
+    json["unit_sphere_error"] = image.distance_from_sphere;
+    json["solid_angle"] = image.solid_angle;
+    json["barycentre"] = image.barycentre;
+  }
+}
+
 inline std::string json_report(const Options& options, const Mesh& mesh, const Figures& figures)
 {
   const CE::Statistics& s = figures.report.statistics;
   const CE::Surface_topology& t = figures.report.topology;
   nlohmann::ordered_json json;
   json["status"] = status_text(figures);
+  json["target"] = target_text(options.target);
   json["vertices"] = mesh.number_of_vertices();
   json["faces"] = mesh.number_of_faces();
   json["isolated_vertices"] = figures.number_of_isolated_vertices;
@@ -288,9 +360,11 @@ inline std::string json_report(const Options& options, const Mesh& mesh, const F
   json["triangles_lost_in_double"] = figures.number_of_rounded_triangles;
   json["injective"] = injective_text(figures);
   json["layout_length_error"] = figures.report.layout_length_error;
+  if(options.target != Target::PLANE)
+    add_json_image(options, figures, json);
   json["seconds"] = { {"import", figures.reading_seconds + s.seconds.import}, {"solve", s.seconds.solve},
                       {"cut", s.seconds.cut}, {"layout", s.seconds.layout},
-                      {"verify", figures.verifying_seconds}, {"write", figures.writing_seconds} };
+                      {"verify", s.seconds.verify + figures.verifying_seconds}, {"write", figures.writing_seconds} };
   json["peak_memory_bytes"] = peak_memory_bytes();
   json["seed"] = nullptr;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -15,6 +15,7 @@
 #include "refine.h"
 #include "results.h"
 #include "solve.h"
+#include "sphere.h"
 
 #include <CGAL/Conformal_equivalence/IO/write_HTML.h>
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
@@ -73,6 +74,8 @@ inline const char* advice(const Options& options, const Report& report)
 {
   const char* flips = " (--retriangulate never; other values flip edges)";
   const bool keeps_triangulation = ! options.local_repair && options.retriangulation == CE::Retriangulation::NEVER;
+  if(options.target != Target::PLANE && keeps_triangulation && report.status == CE::Status::NOT_INJECTIVE)
+    return flips;
   switch(report.status)
   {
     case CE::Status::ANGLE_OUT_OF_RANGE:
@@ -80,6 +83,9 @@ inline const char* advice(const Options& options, const Report& report)
     case CE::Status::DEGENERATE_METRIC:
     case CE::Status::ITERATIONS_EXHAUSTED:
       return keeps_triangulation ? flips : "";
+    case CE::Status::WRONG_TOPOLOGY:
+      return options.target == Target::SPHERE ? "; --target sphere takes closed surfaces of genus 0, of one component"
+           : options.target == Target::DISK ? "; --target disk takes surfaces of genus 0 with one border, of one component" : "";
     case CE::Status::MISSING_CONDITION:
       return options.cone_file.empty() ? " (--cones FILE)" : "";
     case CE::Status::NOT_INJECTIVE: // by rounding: the metric is one
@@ -103,9 +109,24 @@ inline std::string list_of_faces(const std::vector<Face>& faces)
   return faces.size() > 10 ? list + ", ..." : list;
 }
 
+// On the sphere and the disk: how many triangles rounding has cost.
+inline std::string lost_triangles(const Options& options, const Figures& figures)
+{
+  const std::vector<Face>& faces = figures.image.lost_faces;
+  return text(options.input, ": ", count(faces.size(), "triangle is", "triangles are"), " not positive, because points were rounded: ",
+              faces.size() == 1 ? "face" : "faces", list_of_faces(faces), figures.is_refined ? " of the refined mesh" : "",
+              " (--precision BITS has more digits)");
+}
+
 inline void require_verdict(const Options& options, const Figures& figures)
 {
   const CE::Layout_verdict<Mesh>& verdict = figures.verdict;
+  if(! figures.image.lost_faces.empty())
+  {
+    if(options.require_injective)
+      fail(lost_triangles(options, figures));
+    return;
+  }
   if(verdict.number_of_flipped_triangles != 0)
     fail(options.input, ": the layout flips ", verdict.number_of_flipped_triangles, " triangles: faces",
          list_of_faces(verdict.flipped_faces));
@@ -134,8 +155,12 @@ inline CE::IO::HTML_options drawing_options(const Options& options, const Mesh& 
 {
   CE::IO::HTML_options drawing;
   drawing.title = name_without_folder(options.input);
-  drawing.figures = summary(mesh, figures);
+  drawing.figures = summary(options, mesh, figures);
   drawing.svg.legend = options.color_by_quasi_conformal_factor ? "quasi-conformal factor" : "u";
+  if(options.target == Target::SPHERE)
+    drawing.svg = hemisphere_options(drawing.svg);
+  else if(options.target == Target::DISK)
+    drawing.svg.circles = { {{0, 0, 1}} };
   return drawing;
 }
 
@@ -152,8 +177,18 @@ inline double texture_repetitions(const Result& result)
   return longest > 0 && std::isfinite(longest) ? 0.5 / CE::internal::round_number_below(longest / 14) : 1;
 }
 
+inline void write_sphere(const Options& options, const Result& result, Output_files& files)
+{
+  files.write(options.obj, [&](std::ostream& out)
+  {
+    return result.wide_image.empty() ? write_sphere_OBJ(out, result.mesh, result.image) : write_sphere_OBJ(out, result.mesh, result.wide_image);
+  });
+}
+
 inline void write_obj(const Options& options, const Result& result, const Material_files& beside, Output_files& files)
 {
+  if(options.target == Target::SPHERE)
+    return write_sphere(options, result, files);
   CE::IO::OBJ_material material;
   material.file = name_without_folder(beside.material);
   files.write(options.obj, [&](std::ostream& out)
@@ -176,7 +211,7 @@ inline void write_obj(const Options& options, const Result& result, const Materi
 }
 
 // `mesh` is what was given; `result` is drawn, of that mesh or of its refinement.
-inline void write_outputs(const Options& options, const Mesh& mesh, const Result& result, const Material_files& beside,
+inline void write_outputs(const Options& options, const Mesh& mesh, Result& result, const Material_files& beside,
                           Figures& figures, Output_files& files)
 {
   const Stopwatch watch;
@@ -186,8 +221,9 @@ inline void write_outputs(const Options& options, const Mesh& mesh, const Result
   {
     const Face_map<double> colors = face_colors(options, result);
     const CE::IO::HTML_options drawing = drawing_options(options, mesh, figures);
+    const UV_map layout = options.target == Target::SPHERE ? hemispheres(result) : result.uv;
     if(! options.svg.empty())
-      files.write(options.svg, [&](std::ostream& out) { return CE::IO::write_SVG(out, result.mesh, result.uv, colors, drawing.svg); });
+      files.write(options.svg, [&](std::ostream& out) { return CE::IO::write_SVG(out, result.mesh, layout, colors, drawing.svg); });
     if(! options.html.empty())
       files.write(options.html, [&](std::ostream& out)
         { return CE::IO::write_HTML(out, result.mesh, result.uv, colors, drawing, CGAL::parameters::projective_weight_map(result.weight)); });
@@ -203,7 +239,7 @@ inline void write_outputs(const Options& options, const Mesh& mesh, const Result
 // Reads, solves, judges, writes; throws a `Failure` that says what went wrong.
 inline void run(const Options& options, std::ostream& out, std::ostream& err)
 {
-  const Material_files beside(options.obj);
+  const Material_files beside(options.target == Target::SPHERE ? "" : options.obj); // there is no texture on the sphere
   Output_files files;
   announce_outputs(options, beside, files);
 
@@ -228,13 +264,16 @@ inline void run(const Options& options, std::ostream& out, std::ostream& err)
   const bool is_refined = is_refinement_needed(options, figures.report, results.refinement);
   if(is_refined)
     make_refined_mesh(options, results.given, results.refinement, results.made);
-  const Result& drawn = is_refined || options.local_repair ? results.made : results.given;
+  Result& drawn = is_refined || options.local_repair ? results.made : results.given;
   describe_made_mesh(results, is_refined, figures);
-  judge(drawn, figures);
+  judge(options, results.given, drawn, figures);
   require_verdict(options, figures);
   write_outputs(options, mesh, drawn, beside, figures, files);
-  if(! options.quiet)
-    print_summary(out, options, mesh, figures);
+  if(options.quiet)
+    return;
+  print_summary(out, options, mesh, figures);
+  if(! figures.image.lost_faces.empty())
+    err << "flatten_mesh: " << one_line(lost_triangles(options, figures)) << std::endl;
 }
 
 } // namespace flattening

@@ -7,6 +7,7 @@
 #include "messages.h"
 #include "Scanner.h"
 
+#include <CGAL/Conformal_equivalence/map_to_sphere.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/version.h>
 
@@ -24,10 +25,16 @@
 
 namespace flattening {
 
+enum class Target { PLANE, SPHERE, DISK };
+
 // The command line, as values.
 struct Options
 {
   std::string input, obj, svg, html, report;
+  Target target = Target::PLANE;
+  std::optional<std::size_t> vertex_at_infinity, disk_centre;
+  std::optional<std::array<std::size_t, 3> > disk_points;
+  CGAL::Conformal_equivalence::Moebius_weights moebius_weights = CGAL::Conformal_equivalence::Moebius_weights::VERTICES;
   bool is_rectangle = false;
   std::optional<std::array<std::size_t, 4> > corners; // of the rectangle; chosen if absent
   std::string angle_file, scale_file;                 // of the borders
@@ -61,8 +68,17 @@ inline po::options_description visible_options()
        "or, on a topological disk, with chosen corners\n"
        "angles=FILE: angle sums in degrees, lines 'vertex-index angle'\n"
        "scale=FILE: u, lines 'vertex-index u'\n"
-       "angles and scale may both be given; border vertices not named have u = 0")
-    ("target", po::value<std::string>()->default_value("plane"), "plane (sphere, disk: not in this version)")
+       "angles and scale may both be given; border vertices not named have u = 0\n"
+       "disk: the same as --target disk")
+    ("target", po::value<std::string>()->default_value("plane"), "plane\n"
+       "sphere: the unit sphere, for closed surfaces without handles; the vertices of the OBJ file are points of the sphere\n"
+       "disk: the unit disk, for topological disks; all border vertices are on the circle")
+    ("moebius-weights", po::value<std::string>()->default_value("vertices"), "vertices | areas: what has its barycentre in the centre "
+       "of the sphere, or of the sphere of which the disk is one half")
+    ("disk-centre", po::value<std::string>(), "I: this vertex, inside the surface, becomes the centre of the disk instead")
+    ("disk-points", po::value<std::string>(), "I,J,K: instead, these border vertices, counterclockwise, become 1, e^(2 pi i / 3) and e^(4 pi i / 3)")
+    ("vertex-at-infinity", po::value<std::string>(), "I: on the way to the sphere this vertex, to the disk this border vertex, is sent to "
+       "infinity; chosen by default")
     ("frame", po::value<std::string>()->default_value("canonical"), "canonical | unit-square")
     ("cones", po::value<std::string>(),
        "FILE: cones inside the surface, lines 'vertex-index [angle in degrees | free]'; at a free cone, or where nothing "
@@ -83,7 +99,7 @@ inline po::options_description visible_options()
     ("mollify", po::value<std::string>()->default_value("0"), "add the least constant to all lengths with which every triangle inequality "
        "holds with this slack, relative to the mean length; 0: none")
     ("projective", po::bool_switch(), "write homogeneous texture coordinates u*w, v*w, w")
-    ("require-injective", po::bool_switch(), "fail if the layout overlaps itself")
+    ("require-injective", po::bool_switch(), "fail if the layout overlaps itself, or if rounding has cost triangles of the sphere or the disk")
     ("color-by", po::value<std::string>()->default_value("u"), "u | qc: colours of the drawing")
     ("tolerance", po::value<std::string>()->default_value("1e-12"), "largest error of an angle sum, in radians")
     ("max-iterations", po::value<long long>()->default_value(100), "bound on the number of Newton steps")
@@ -103,8 +119,10 @@ inline std::string help_text()
   out << "Usage: flatten_mesh INPUT [-o OUT.obj] [--svg OUT.svg] [--html OUT.html] [--report OUT.json] [options]\n"
          "Flattens a triangle mesh (OFF, OBJ, PLY or STL) of any topology by an exact discrete conformal map:\n"
          "the layout has the length cross ratios of the mesh. What is no topological disk, or has cones, is\n"
-         "cut open. Vertices are counted from 0.\n"
-         "Exit status: 0 done, no triangle flipped; 1 failed, nothing is written; 2 wrong usage.\n\n"
+         "cut open. Closed surfaces without handles are also mapped to the sphere, disks to the unit disk.\n"
+         "Vertices are counted from 0.\n"
+         "Exit status: 0 done, no triangle flipped (on sphere and disk: but for those that rounding has cost,\n"
+         "which are counted); 1 failed, nothing is written; 2 wrong usage.\n\n"
       << visible_options();
   return out.str();
 }
@@ -125,7 +143,8 @@ inline void refuse_what_is_not_available(const po::variables_map& values)
         refuse(text("--", name, ' ', value));
     throw Usage_error(text("unknown value '", value, "' of --", name));
   };
-  check("target", {"plane"}, {"sphere", "disk"});
+  check("target", {"plane", "sphere", "disk"}, {});
+  check("moebius-weights", {"vertices", "areas"}, {});
   check("frame", {"canonical", "unit-square"}, {});
   check("retriangulate", {"never", "when-needed", "always"}, {});
   check("color-by", {"u", "qc"}, {});
@@ -137,32 +156,34 @@ inline void refuse_what_is_not_available(const po::variables_map& values)
     refuse("--seamless");
 }
 
-inline std::array<std::size_t, 4> parse_corners(const std::string& list)
+// Different vertices, separated by commas; `what` takes them, and says how many.
+template <std::size_t N>
+std::array<std::size_t, N> parse_vertices(const std::string& list, const char* what)
 {
-  std::array<std::size_t, 4> corners;
+  std::array<std::size_t, N> vertices;
   std::vector<std::string> words(1);
   for(char c : list)
     if(c == ',')
       words.emplace_back();
     else
       words.back() += c;
-  bool is_good = words.size() == 4;
-  for(std::size_t k = 0; is_good && k < 4; ++k)
+  bool is_good = words.size() == N;
+  for(std::size_t k = 0; is_good && k < N; ++k)
   {
     std::int64_t i = 0;
     is_good = Scanner::parse(words[k], i) && i >= 0;
-    corners[k] = static_cast<std::size_t>(i);
+    vertices[k] = static_cast<std::size_t>(i);
     for(std::size_t j = 0; is_good && j < k; ++j)
-      is_good = corners[j] != corners[k];
+      is_good = vertices[j] != vertices[k];
   }
   if(! is_good)
-    throw Usage_error(text("--boundary rectangle= takes the indices of four different vertices, not '", list, "'"));
-  return corners;
+    throw Usage_error(text(what, ", not '", list, "'"));
+  return vertices;
 }
 
 inline void parse_boundary(const std::vector<std::string>& values, Options& options)
 {
-  bool is_natural = false;
+  bool is_natural = false, is_disk = false;
   for(const std::string& value : values)
   {
     const std::size_t equals = value.find('=');
@@ -170,15 +191,15 @@ inline void parse_boundary(const std::vector<std::string>& values, Options& opti
     const bool has_argument = equals != std::string::npos;
     const std::string argument = has_argument ? value.substr(equals + 1) : "";
     std::string* file = kind == "angles" ? &options.angle_file : kind == "scale" ? &options.scale_file : nullptr;
-    if(kind == "disk")
-      throw Usage_error("--boundary disk is not available in this version");
+    if(kind == "disk" && ! has_argument)
+      is_disk = true;
     else if(kind == "natural" && ! has_argument)
       is_natural = true;
     else if(kind == "rectangle")
     {
       options.is_rectangle = true;
       if(has_argument)
-        options.corners = parse_corners(argument);
+        options.corners = parse_vertices<4>(argument, "--boundary rectangle= takes the indices of four different vertices");
     }
     else if(file == nullptr)
       throw Usage_error(text("unknown value '", value, "' of --boundary"));
@@ -190,8 +211,64 @@ inline void parse_boundary(const std::vector<std::string>& values, Options& opti
       *file = argument;
   }
   const bool is_from_files = ! options.angle_file.empty() || ! options.scale_file.empty();
-  if(is_natural + options.is_rectangle + is_from_files > 1 || (! is_from_files && values.size() > 1))
+  if(is_natural + is_disk + options.is_rectangle + is_from_files > 1 || (! is_from_files && values.size() > 1))
     throw Usage_error("these values of --boundary exclude each other; only angles=FILE and scale=FILE go together");
+  if(is_disk)
+    options.target = Target::DISK;
+}
+
+// What is said of a map to the sphere or the disk, `target`; other options do not go with it.
+inline void parse_options_of_target(const po::variables_map& values, const std::string& target, Options& options)
+{
+  typedef CGAL::Conformal_equivalence::Moebius_weights Moebius_weights;
+  const auto is_given = [&](const char* name) { return values.count(name) != 0 && ! values[name].defaulted(); };
+  const auto exclude = [](const std::string& a, const std::string& b) { throw Usage_error(text(a, " and ", b, " exclude each other")); };
+  const auto vertex = [&](const char* name) -> std::optional<std::size_t>
+  {
+    if(! is_given(name))
+      return std::nullopt;
+    return parse_vertices<1>(values[name].as<std::string>(), text("--", name, " takes the index of a vertex").c_str())[0];
+  };
+  options.vertex_at_infinity = vertex("vertex-at-infinity");
+  options.disk_centre = vertex("disk-centre");
+  if(is_given("disk-points"))
+    options.disk_points = parse_vertices<3>(values["disk-points"].as<std::string>(), "--disk-points takes the indices of three different vertices");
+  options.moebius_weights = values["moebius-weights"].as<std::string>() == "areas" ? Moebius_weights::AREAS : Moebius_weights::VERTICES;
+
+  if(options.target == Target::PLANE)
+    for(const char* name : {"vertex-at-infinity", "moebius-weights"})
+      if(is_given(name))
+        throw Usage_error(text("--", name, " needs --target sphere or --target disk"));
+  if(options.target != Target::DISK)
+    for(const char* name : {"disk-centre", "disk-points"})
+      if(is_given(name))
+        throw Usage_error(text("--", name, " needs --target disk"));
+  if(options.target == Target::PLANE)
+    return;
+  for(const char* name : {"cones", "frame", "keep-border", "local-repair"})
+    if(is_given(name))
+      exclude(target, text("--", name));
+  if(options.target == Target::SPHERE)
+    for(const char* name : {"projective", "html"})
+      if(is_given(name))
+        exclude(target, text("--", name));
+  if(is_given("disk-centre") && is_given("disk-points"))
+    exclude("--disk-centre", "--disk-points");
+  for(const char* name : {"disk-centre", "disk-points"})
+    if(is_given(name) && is_given("moebius-weights"))
+      exclude(text("--", name), "--moebius-weights");
+}
+
+// Where the surface is mapped to: by --target, or by --boundary disk, which was read.
+inline void parse_target(const po::variables_map& values, Options& options)
+{
+  const std::string name = values["target"].as<std::string>(), option = "--target " + name;
+  const bool is_given = ! values["target"].defaulted(), is_boundary_disk = options.target == Target::DISK;
+  if(values.count("boundary") && ((is_boundary_disk && is_given && name != "disk") || (! is_boundary_disk && name != "plane")))
+    throw Usage_error(text(option, " and --boundary ", values["boundary"].as<std::vector<std::string> >()[0], " exclude each other"));
+  if(! is_boundary_disk)
+    options.target = name == "sphere" ? Target::SPHERE : name == "disk" ? Target::DISK : Target::PLANE;
+  parse_options_of_target(values, is_boundary_disk && ! is_given ? "--boundary disk" : option, options);
 }
 
 inline void parse_cones(const std::string& value, Options& options)
@@ -290,6 +367,7 @@ inline Options parse_options(int argc, const char* const argv[])
     parse_boundary(values["boundary"].as<std::vector<std::string> >(), options);
   if(values.count("cones"))
     parse_cones(values["cones"].as<std::string>(), options);
+  parse_target(values, options);
   parse_numbers(values, options);
   options.unit_square = values["frame"].as<std::string>() == "unit-square";
   options.color_by_quasi_conformal_factor = values["color-by"].as<std::string>() == "qc";

@@ -76,31 +76,39 @@ inline CE::Common_refinement<double> rounded(const Wide_refinement& wide)
   return result;
 }
 
-// As `CE::flatten()` with the same parameters, as exactly as the numbers allow.
-template <typename NamedParameters>
-CE::Flattening_report<Mesh> flatten_precisely(Mesh& mesh, UV_map uv, CE::Common_refinement<double>& refinement, Wide_layout& wide,
-                                              const NamedParameters& np)
+inline void use_wide_points(Mesh& mesh, Wide_layout& wide)
 {
   wide.is_used = true;
   wide.uv = mesh.add_property_map<Halfedge, Wide_point>("h:wide_uv").first;
-  const auto report = CE::flatten<CE::Multiprecision_number>(mesh, wide.uv, CE::combine_named_parameters(np,
-    CGAL::parameters::gradient_tolerance(0.).common_refinement(std::ref(wide.refinement))));
-  if(! report)
-    return report;
+}
+
+// What is drawn of a layout.
+inline void round_layout(const Mesh& mesh, const Wide_layout& wide, UV_map uv, CE::Common_refinement<double>& refinement)
+{
   for(Halfedge h : mesh.halfedges())
   {
     const std::array<double, 2> p = rounded(wide.uv[h].x(), wide.uv[h].y());
     uv[h] = Kernel::Point_2(p[0], p[1]);
   }
   refinement = rounded(wide.refinement);
+}
+
+// As `CE::flatten()` with the same parameters.
+template <typename NamedParameters>
+CE::Flattening_report<Mesh> flatten_precisely(Mesh& mesh, UV_map uv, CE::Common_refinement<double>& refinement, Wide_layout& wide,
+                                              const NamedParameters& np)
+{
+  use_wide_points(mesh, wide);
+  const auto report = CE::flatten<CE::Multiprecision_number>(mesh, wide.uv, np.common_refinement(std::ref(wide.refinement)));
+  if(report)
+    round_layout(mesh, wide, uv, refinement);
   return report;
 }
 
 // The points of a mesh made of `parts`, before rounding.
 inline void set_wide_points(const Wide_refinement& parts, const CE::Refined_mesh_elements<Mesh>& elements, Mesh& mesh, Wide_layout& wide)
 {
-  wide.is_used = true;
-  wide.uv = mesh.add_property_map<Halfedge, Wide_point>("h:wide_uv").first;
+  use_wide_points(mesh, wide);
   for(std::size_t c = 0; c < elements.halfedges.size(); ++c)
     wide.uv[elements.halfedges[c]] = Wide_point(parts.corner_uv[c][0], parts.corner_uv[c][1]);
 }

@@ -4,6 +4,7 @@
 #ifndef FLATTEN_MESH_REFINE_H
 #define FLATTEN_MESH_REFINE_H
 
+#include "inscribe.h"
 #include "mesh.h"
 #include "messages.h"
 #include "options.h"
@@ -19,10 +20,12 @@
 namespace flattening {
 
 // Is the common refinement to be written, instead of the mesh? It has to be where edges were flipped and straight triangles will not do, or
-// where the map in them is wanted, which is projective only on the parts.
+// where the map in them is wanted, which is projective only on the parts; for the disk, also where the border is no polygon of border edges.
 inline bool is_refinement_needed(const Options& options, const Report& report, const Refinement& refinement)
 {
-  return refinement.number_of_faces() != 0 && (options.refine || options.projective || ! report.bent_faces.empty());
+  return refinement.number_of_faces() != 0
+      && (options.refine || options.projective || ! report.bent_faces.empty()
+          || (options.target == Target::DISK && ! report.lost_border_edges.empty()));
 }
 
 // The weights of all vertices follow from the scale factors, and the scale factors of crossings from their weights.
@@ -55,6 +58,8 @@ inline void make_refined_mesh(const Options& options, const Result& given, const
   else
     make(CE::import_mesh(given.mesh), CE::triangulate_refinement(refinement));
   find_scale_factors(given, refined);
+  if(options.target == Target::DISK)
+    find_image_of_corners(refined);
 }
 
 } // namespace flattening

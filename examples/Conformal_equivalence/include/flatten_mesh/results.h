@@ -8,9 +8,12 @@
 #include "precision.h"
 
 #include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/multiprecision.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 
+#include <array>
 #include <cstddef>
+#include <vector>
 
 namespace flattening {
 
@@ -24,6 +27,10 @@ struct Result
   UV_map uv;
   Vertex_map<double> u, weight;
   Wide_layout wide; // with --precision
+
+  // With --target sphere or disk: the images of the vertices, in the plane z = 0 for the disk; the origin for isolated ones
+  std::vector<std::array<double, 3> > image;
+  std::vector<std::array<CE::Multiprecision_number, 3> > wide_image; // with --precision
 
   explicit Result(Mesh& mesh)
     : mesh(mesh),

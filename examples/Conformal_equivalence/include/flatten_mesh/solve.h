@@ -5,6 +5,7 @@
 #define FLATTEN_MESH_SOLVE_H
 
 #include "conditions.h"
+#include "inscribe.h"
 #include "mesh.h"
 #include "messages.h"
 #include "options.h"
@@ -83,21 +84,24 @@ Report flatten_with(const SolverTraits& solver, const Options& options, const Co
 {
   Progress_visitor visitor(progress);
   Result& given = results.given;
-  const auto np =
-    CGAL::parameters::border_angle_map(conditions.border_angle)
-                     .cone_angle_map(conditions.cone_angle)
-                     .vertex_is_constrained_map(conditions.is_constrained)
-                     .prescribed_log_scale_factor_map(conditions.u)
-                     .log_scale_factor_map(given.u)
+  const auto common =
+    CGAL::parameters::log_scale_factor_map(given.u)
                      .projective_weight_map(given.weight)
                      .mollification(options.mollification)
-                     .gradient_tolerance(options.tolerance)
+                     .gradient_tolerance(options.precision_in_bits > bits_of_double ? 0. : options.tolerance)
                      .number_of_iterations(options.maximum_number_of_iterations)
                      .retriangulation(options.retriangulation)
-                     .border_edges(options.keep_border ? CE::Border_edges::KEPT : CE::Border_edges::FLIPPABLE)
-                     .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL)
                      .sparse_linear_solver(solver)
                      .visitor(std::ref(visitor));
+  if(options.target != Target::PLANE)
+    return inscribe(options, results, common);
+  const auto np =
+    common.border_angle_map(conditions.border_angle)
+          .cone_angle_map(conditions.cone_angle)
+          .vertex_is_constrained_map(conditions.is_constrained)
+          .prescribed_log_scale_factor_map(conditions.u)
+          .border_edges(options.keep_border ? CE::Border_edges::KEPT : CE::Border_edges::FLIPPABLE)
+          .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL);
   if(options.local_repair)
     return flatten_repaired(given, results.made, results.repair, np);
   if(options.precision_in_bits > bits_of_double)

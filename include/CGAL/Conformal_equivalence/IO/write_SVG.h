@@ -61,6 +61,8 @@ struct SVG_options
   /// up to 2 pi within 1e-6 and the rounding of the coordinates. Switch it off for a layout in charts: at their common
   /// borders angles sum up to anything.
   bool cones = true;
+  /// Circles that are drawn, too, each by its centre and its radius in the layout.
+  std::vector<std::array<double, 3> > circles;
 };
 
 } // namespace IO
@@ -138,6 +140,7 @@ public:
       write_image(out);
     else
       write_triangles(out);
+    write_circles(out);
     write_outline(out);
     write_seams_and_cones(out);
     write_legend(out, m_frame.width + margin);
@@ -157,6 +160,12 @@ private:
           x.insert(p[0]);
           y.insert(p[1]);
         }
+    for(const std::array<double, 3>& c : m_options.circles)
+      for(const double sign : {-1., 1.})
+      {
+        x.insert(c[0] + sign * c[2]);
+        y.insert(c[1] + sign * c[2]);
+      }
     return SVG_frame(x, y, m_options.size);
   }
 
@@ -347,6 +356,19 @@ private:
     while(h != first);
     if(is_begun)
       out << 'z';
+  }
+
+  void write_circles(Text_buffer& out) const
+  {
+    if(m_options.circles.empty())
+      return;
+    out << "<g id=\"circles\" fill=\"none\" stroke=\"#888\">\n";
+    for(const std::array<double, 3>& c : m_options.circles)
+    {
+      const Point centre = m_frame({{ c[0], c[1] }});
+      out << "<circle cx=\"" << centre[0] << "\" cy=\"" << centre[1] << "\" r=\"" << c[2] * m_frame.scale << "\"/>\n";
+    }
+    out << "</g>\n";
   }
 
   void write_seams_and_cones(Text_buffer& out) const
