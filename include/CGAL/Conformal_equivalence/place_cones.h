@@ -301,16 +301,19 @@ private:
     return cones;
   }
 
-  // Moves single cones to vertices nearby, farther ones first, as long as that makes it better.
+  // Moves single cones to vertices nearby, as long as that makes it better: farther ones first, and only the cones that have most influence; in the end each to
+  // its neighbours.
   Placement moved(Search& search, Placement p)
   {
+    const std::size_t few = 2;
     std::size_t reach = (std::max)(std::size_t(1), std::size_t(std::sqrt(double(search.candidates().size())) / 12));
     for(; reach > 0; reach /= 2)
       for(bool is_better = true; is_better; )
       {
         is_better = false;
-        for(std::size_t i = 0; i < p.cones.size(); ++i)
-          is_better = improve(search, p, i, reach) || is_better;
+        const std::vector<std::size_t> order = search.by_influence(p);
+        for(std::size_t k = 0; k < order.size() && !is_better && (k < few || reach == 1); ++k)
+          is_better = improve(search, p, order[k], reach);
       }
     return p;
   }
@@ -323,7 +326,7 @@ private:
       if(!t_.is_border_vertex(v) && !p.is_cone(v))
         trials.emplace_back(search.measure_if_moved(p, i, v), v);
     std::sort(trials.begin(), trials.end());
-    const std::size_t most = 2;
+    const std::size_t most = 1;
     for(std::size_t k = 0; k < trials.size() && k < most && trials[k].first < (1 - gain) * p.measure; ++k)
     {
       Placement trial = p;
@@ -355,7 +358,7 @@ private:
         });
       front.swap(next);
     }
-    const std::size_t most = 8;
+    const std::size_t most = 6;
     if(front.size() <= most || distance == 1)
       return front;
     std::vector<Index> result;

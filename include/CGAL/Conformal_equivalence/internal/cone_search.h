@@ -173,6 +173,20 @@ public:
     return moved.measure;
   }
 
+  // The numbers of the cones, beginning with the one that has most influence on u where |u| is largest.
+  std::vector<std::size_t> by_influence(const Placement& p)
+  {
+    std::vector<std::pair<double, std::size_t> > influence;
+    const Index worst = worst_vertex(p);
+    for(std::size_t i = 0; i < p.cones.size(); ++i)
+      influence.emplace_back(worst == t_.null_index ? 0 : -std::abs(response(p.cones[i])[worst]), i);
+    std::sort(influence.begin(), influence.end());
+    std::vector<std::size_t> result;
+    for(const auto& x : influence)
+      result.push_back(x.second);
+    return result;
+  }
+
   // What `p` measures, from its u.
   void judge(Placement& p) const
   {
