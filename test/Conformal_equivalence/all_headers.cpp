@@ -83,6 +83,8 @@ bool all_is_well(const std::string& type)
       diagonal = (std::max)(diagonal, std::sqrt(CGAL::squared_distance(a.second, b.second)));
   if(!(std::fabs(diagonal - 2) < 1e-9))
     return failed("the size of " + type);
+  if(!CE::map_to_disk(mesh, vertex_uv))
+    return failed("map_to_disk of " + type);
 
   std::ostringstream out;
   return CE::IO::write_OBJ(out, mesh, uv) || failed("write_OBJ of " + type);

@@ -38,7 +38,6 @@
 #include <limits>
 #include <memory>
 #include <new>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -419,28 +418,21 @@ private:
                                                           : Delaunay_property::NO;
   }
 
-  // The intrinsic Delaunay triangulation of the metric given, by Euclidean flips. Triangles may be degenerate, or violate their
-  // inequality by the rounding of their lengths: then they count as degenerate.
+  // The intrinsic Delaunay triangulation of the metric given, by Euclidean flips.
   template <typename Observer>
   bool make_delaunay(Observer& observer, Metric& result) const
   {
-    const auto length = [&](Index h) { return triangulation_.halfedge_length(h); };
-    for(Index h = 0; h < triangulation_.number_of_halfedges(); h += 3)
-      if(!internal::is_triangle_up_to_rounding(length(h), length(h + 1), length(h + 2)))
-        result.faces.push_back(h / 3);
-    if(!result.faces.empty())
-    {
-      result.status = Status::DEGENERATE_METRIC;
-      return false;
-    }
-    std::vector<Index> all(result.triangulation.number_of_edges()), flipped;
-    std::iota(all.begin(), all.end(), Index(0));
-    internal::Delaunay_flipper<NT> flipper(result.triangulation);
-    flipper.flip_to_delaunay(std::vector<double>(), std::move(all), internal::Flip_rule::EUCLIDEAN, [&](Index e)
+    std::vector<Index> flipped;
+    const bool is_possible = internal::make_intrinsic_delaunay(result.triangulation, result.faces, [&](Index e)
     {
       observer.before_flip(result.triangulation, e);
       flipped.push_back(e);
     });
+    if(!is_possible) // (there are only given faces: what is doubled was found to be possible before)
+    {
+      result.status = Status::DEGENERATE_METRIC;
+      return false;
+    }
     for(Index e : flipped)
       observer.after_flip(result.triangulation, e);
     return true;

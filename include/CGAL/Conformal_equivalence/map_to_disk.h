@@ -16,7 +16,9 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/common_refinement.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/convex_polygon.h>
+#include <CGAL/Conformal_equivalence/internal/delaunay.h>
 #include <CGAL/Conformal_equivalence/internal/double.h>
 #include <CGAL/Conformal_equivalence/internal/ideal_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/inscribed_mapping.h>
@@ -184,14 +186,14 @@ private:
   template <typename NamedParameters>
   void find(const NamedParameters& np)
   {
-    using parameters::choose_parameter;
-    using parameters::get_parameter;
     const Intrinsic_triangulation<NT>& t = mesh.triangulation;
     const Index apex = given_apex(mesh, np);
     CGAL_precondition(apex == t.null_index || t.is_border_vertex(apex));
-    if(t.number_of_faces() == 1)
-      return find_triangle(np);
+    if(!is_possible(given_frame(np)))
+      return;
     twofold_ = std::make_unique<Surface_double<NT> >(t);
+    if(is_polygon() && start_polygon(given_retriangulation(np)))
+      return find_polygon(np);
     const Inscribed_mapping<NT, NamedParameters> mapping(t, twofold_->triangulation, np);
     polyhedron = mapping(apex, given_retriangulation(np), [&](Ideal_polyhedron<NT>& found)
     {
@@ -202,22 +204,85 @@ private:
     report.statistics.is_doubled = is_doubled(polyhedron);
   }
 
-  // The three corners of a triangle go anywhere on the circle.
-  template <typename NamedParameters>
-  void find_triangle(const NamedParameters& np)
+  // Are all vertices on the border?
+  bool is_polygon() const
   {
-    typedef Complex_number<Wide> Complex;
     const Intrinsic_triangulation<NT>& t = mesh.triangulation;
-    const Wide a(t.halfedge_length(0)), b(t.halfedge_length(1)), c(t.halfedge_length(2)); // between 0 and 1, 1 and 2, 2 and 0
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v))
+        return false;
+    return true;
+  }
+
+  // The triangulation of a surface without inner vertices whose cross ratios are kept: that given, or the intrinsic Delaunay triangulation
+  // of the double. Returns whether it has the border edges, so that it can be developed.
+  bool start_polygon(Retriangulation retriangulation)
+  {
+    const Intrinsic_triangulation<NT>& t = mesh.triangulation;
     polyhedron.triangulation = t;
-    polyhedron.vectors.assign(t.number_of_vertices(), Light_vector<Wide>{{Wide(0), Wide(0), Wide(0), Wide(0)}});
-    // 2 at infinity, 0 at 0 and 1 at 1
-    polyhedron.vectors[t.origin(0)] = light_vector(Complex{Wide(0), Wide(0)}, square_root(b / (a * c)));
-    polyhedron.vectors[t.origin(1)] = light_vector(Complex{Wide(1), Wide(0)}, square_root(c / (a * b)));
-    const Wide weight = b * c / a / 2;
-    polyhedron.vectors[t.origin(2)] = {{Wide(0), Wide(0), -weight, weight}};
+    if(retriangulation != Retriangulation::ALWAYS || t.number_of_faces() == 1)
+      return true;
+    Intrinsic_triangulation<NT> flipped = twofold_->triangulation;
+    std::vector<Index> broken;
+    if(!make_intrinsic_delaunay(flipped, broken, [&](Index e) { polyhedron.flips.push_back(e); }))
+      return false; // refused by the mapping
+    if(!polyhedron.flips.empty())
+      polyhedron.triangulation = std::move(flipped);
+    polyhedron.statistics.number_of_flips = polyhedron.flips.size();
+    polyhedron.statistics.conformal_class = Conformal_class::DELAUNAY_TRIANGULATION;
+    return twofold_->lost_border_edges(t, polyhedron.triangulation, polyhedron.flips).empty() || polyhedron.flips.empty();
+  }
+
+  // Then there is nothing to solve: the three corners of a triangle go anywhere on the circle, and the others follow from cross ratios, one after the other.
+  template <typename NamedParameters>
+  void find_polygon(const NamedParameters& np)
+  {
+    const Intrinsic_triangulation<NT>& t = polyhedron.triangulation;
+    Vectors& vectors = polyhedron.vectors;
+    vectors.assign(t.number_of_vertices(), Light_vector<Wide>{{Wide(0), Wide(0), Wide(0), Wide(0)}});
+    place_first_triangle(vectors);
+    std::vector<Index> waiting(1, 0);
+    for(std::size_t n = 0; n < waiting.size(); ++n)
+      for(Index h = 3 * waiting[n]; h < 3 * waiting[n] + 3; ++h)
+      {
+        const Index g = t.twin(h);
+        if(g == t.null_index || vectors[t.apex(g)][3] > 0)
+          continue;
+        vectors[t.apex(g)] = vector_across(h);
+        waiting.push_back(t.face(g));
+      }
     normalize(polyhedron, np);
     take_over(mesh, polyhedron, report);
+    report.statistics.is_doubled = is_doubled(polyhedron);
+  }
+
+  // The corners 0, 1, 2 of the first face at 0, 1 and infinity.
+  void place_first_triangle(Vectors& v) const
+  {
+    typedef Complex_number<Wide> Complex;
+    const Intrinsic_triangulation<NT>& t = polyhedron.triangulation;
+    const Wide a(t.halfedge_length(0)), b(t.halfedge_length(1)), c(t.halfedge_length(2)); // between 0 and 1, 1 and 2, 2 and 0
+    v[t.origin(0)] = light_vector(Complex{Wide(0), Wide(0)}, square_root(b / a / c));
+    v[t.origin(1)] = light_vector(Complex{Wide(1), Wide(0)}, square_root(c / a / b));
+    const Wide weight = b / a * c / 2;
+    v[t.origin(2)] = {{Wide(0), Wide(0), -weight, weight}};
+  }
+
+  // The vertex l of the other triangle at the side ij of ijk: its products with the vectors of i and j are given, that with k by Ptolemy's theorem.
+  Light_vector<Wide> vector_across(Index h) const
+  {
+    const Intrinsic_triangulation<NT>& t = polyhedron.triangulation;
+    const Index g = t.twin(h);
+    const Vectors& v = polyhedron.vectors;
+    const Light_vector<Wide> &i = v[t.origin(h)], &j = v[t.target(h)], &k = v[t.apex(h)];
+    const Wide ij(t.halfedge_length(h)), jk(t.halfedge_length(t.next(h))), ki(t.halfedge_length(t.previous(h)));
+    const Wide il(t.halfedge_length(t.next(g))), lj(t.halfedge_length(t.previous(g)));
+    const Wide at_i = lj / ij * (il / ki * (jk / ij) + lj / ij), at_j = il / ij * (il / ij + lj / jk * (ki / ij)), at_k = il / ki * (lj / jk);
+    Light_vector<Wide> result;
+    for(std::size_t x = 0; x < 3; ++x)
+      result[x] = at_i * i[x] + at_j * j[x] - at_k * k[x];
+    result[3] = square_root(result[0] * result[0] + result[1] * result[1] + result[2] * result[2]);
+    return result;
   }
 
   static Wide square_root(const Wide& x)
@@ -242,12 +307,48 @@ private:
         vertex_weights[v] /= kind == Moebius_weights::VERTICES ? 2 : 1; // the others are on the double twice
       }
     vertex_weights.resize(found.vectors.size(), 0);
-    const auto frame = choose_parameter(get_parameter(np, internal_np::conformal_disk_frame), Disk_frame::BARYCENTRE);
-    if(!place(frame, Disk_normalization<Wide>(std::move(vertex_weights), first), found.vectors))
+    if(!place(given_frame(np), Disk_normalization<Wide>(std::move(vertex_weights), first), found.vectors))
     {
       found.status = Status::SINGULAR_PROBLEM;
       found.vertices.assign(1, found.apex == t.null_index ? first : found.apex);
     }
+  }
+
+  template <typename NamedParameters>
+  static auto given_frame(const NamedParameters& np)
+  {
+    return parameters::choose_parameter(parameters::get_parameter(np, internal_np::conformal_disk_frame), Disk_frame::BARYCENTRE);
+  }
+
+  // Is there a map in that frame? Border points need to be different, and in the order in which they are on the circle.
+  template <typename Frame>
+  bool is_possible(const Frame&) const { return true; }
+
+  template <typename Vertex>
+  bool is_possible(const Three_point_disk_frame<Vertex>& frame)
+  {
+    const Intrinsic_triangulation<NT>& t = mesh.triangulation;
+    const std::array<Index, 3> border = border_points(frame);
+    Index v = t.target(t.vertex_halfedge(border[0]));
+    while(v != border[0] && v != border[1] && v != border[2])
+      v = t.target(t.vertex_halfedge(v));
+    if(v == border[1] && border[0] != border[1] && border[0] != border[2] && border[1] != border[2])
+      return true;
+    report.status = Status::SINGULAR_PROBLEM;
+    name_elements(mesh, std::vector<Index>(border.begin(), border.end()), {}, {}, report);
+    return false;
+  }
+
+  template <typename Vertex>
+  std::array<Index, 3> border_points(const Three_point_disk_frame<Vertex>& frame) const
+  {
+    std::array<Index, 3> result;
+    for(std::size_t i = 0; i < 3; ++i)
+    {
+      result[i] = mesh.index_of_vertex(frame.border[i]);
+      CGAL_precondition(mesh.triangulation.is_border_vertex(result[i]));
+    }
+    return result;
   }
 
   bool place(Disk_frame, const Disk_normalization<Wide>& normalization, Vectors& v) const { return normalization.barycentre(v); }
@@ -263,13 +364,7 @@ private:
   template <typename Vertex>
   bool place(const Three_point_disk_frame<Vertex>& frame, const Disk_normalization<Wide>& normalization, Vectors& v) const
   {
-    std::array<Index, 3> border;
-    for(std::size_t i = 0; i < 3; ++i)
-    {
-      border[i] = mesh.index_of_vertex(frame.border[i]);
-      CGAL_precondition(mesh.triangulation.is_border_vertex(border[i]));
-    }
-    return normalization.three_points(v, border);
+    return normalization.three_points(v, border_points(frame));
   }
 
   // ---- Points of the plane: stereographic projection from (0, -1, 0)
@@ -304,6 +399,19 @@ private:
     return result;
   }
 
+  template <typename Number>
+  static bool is_positive(const std::array<Number, 2>& p, const std::array<Number, 2>& q, const std::array<Number, 2>& r)
+  {
+    return is_left_turn(p, q, r);
+  }
+
+  // Exact numbers only where they are needed: coordinates are at most 1, and the error of the determinant below 2^-100.
+  static bool is_positive(const std::array<Double_double, 2>& p, const std::array<Double_double, 2>& q, const std::array<Double_double, 2>& r)
+  {
+    const double determinant = static_cast<double>((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+    return std::abs(determinant) > 1e-29 ? determinant > 0 : is_left_turn(p, q, r);
+  }
+
   // Those of the surface that are not positive; of the double not those of the mirror image, and those across the axis.
   std::vector<Index> flipped_faces(const Ideal_polyhedron<NT>& found) const
   {
@@ -317,7 +425,7 @@ private:
       if(i >= n || j >= n || k >= n)
         continue;
       const bool is_at_axis = mesh.triangulation.is_border_vertex(i) && mesh.triangulation.is_border_vertex(j) && mesh.triangulation.is_border_vertex(k);
-      if(!(is_doubled(found) && is_at_axis) && !is_left_turn(p[i], p[j], p[k])) // at the axis it may belong to the image
+      if(!(is_doubled(found) && is_at_axis) && !is_positive(p[i], p[j], p[k])) // at the axis it may belong to the image
         result.push_back(f);
     }
     return result;
@@ -358,7 +466,7 @@ private:
     const Intrinsic_triangulation<NT>& t = mesh.triangulation;
     std::vector<Index> result;
     for(Index f = 0; f < t.number_of_faces(); ++f)
-      if(!is_left_turn(p[t.origin(3 * f)], p[t.origin(3 * f + 1)], p[t.origin(3 * f + 2)]))
+      if(!is_positive(p[t.origin(3 * f)], p[t.origin(3 * f + 1)], p[t.origin(3 * f + 2)]))
         result.push_back(f);
     return result;
   }
@@ -417,9 +525,9 @@ private:
     for(Index f : suspects)
     {
       const std::size_t c = refinement.first_corner[f];
-      const bool is_positive = is_left_turn(wide[refinement.corner_vertex[c]], wide[refinement.corner_vertex[c + 1]], wide[refinement.corner_vertex[c + 2]]);
-      (is_positive ? refinement.rounded_faces : refinement.flipped_faces).push_back(f);
-      (is_positive ? lost : flipped).push_back(refinement.input_face[f]);
+      const bool is_rounded = is_positive(wide[refinement.corner_vertex[c]], wide[refinement.corner_vertex[c + 1]], wide[refinement.corner_vertex[c + 2]]);
+      (is_rounded ? refinement.rounded_faces : refinement.flipped_faces).push_back(f);
+      (is_rounded ? lost : flipped).push_back(refinement.input_face[f]);
     }
     if(!flipped.empty())
     {
@@ -488,7 +596,7 @@ void write_disk(const Disk_mapping<TriangleMesh, NT>& mapping, VertexUVMap disk_
 ///   \cgalParamNBegin{vertex_at_infinity}
 ///     \cgalParamDescription{the border vertex that is sent to infinity on the way}
 ///     \cgalParamType{`boost::graph_traits<TriangleMesh>::%vertex_descriptor`}
-///     \cgalParamDefault{one with well-shaped triangles around it}
+///     \cgalParamDefault{the null vertex: one with well-shaped triangles around it is taken}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{log_scale_factor_map}
 ///     \cgalParamDescription{receives u: the straight edges are e^{(u_i + u_j) / 2} times as long as those of the mesh}
@@ -516,7 +624,7 @@ void write_disk(const Disk_mapping<TriangleMesh, NT>& mapping, VertexUVMap disk_
 /// \cgalNamedParamsEnd
 ///
 /// \return the report. Maps are written iff it is a success. Statuses: those of `import_mesh()`; `WRONG_TOPOLOGY`, with what was found
-///         (`Flattening_report::topology`); those of `Conformal_metric_solver::solve()`; `SINGULAR_PROBLEM` (a vertex) if there is no such frame; `NOT_INJECTIVE`
+///         (`Flattening_report::topology`); those of `Conformal_metric_solver::solve()`; `SINGULAR_PROBLEM` (vertices) if there is no such frame; `NOT_INJECTIVE`
 ///         (faces); those of `compute_common_refinement()` if the refinement was asked for.
 ///
 /// \sa `CGAL::Conformal_equivalence::map_to_sphere()`

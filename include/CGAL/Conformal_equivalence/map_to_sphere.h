@@ -395,7 +395,7 @@ void write_sphere(const Sphere_mapping<TriangleMesh, NT>& mapping, VertexPointMa
 ///   \cgalParamNBegin{vertex_at_infinity}
 ///     \cgalParamDescription{the vertex that is sent to infinity on the way; the result depends on it by rounding only. Another one is taken where this one gives no result, but that does}
 ///     \cgalParamType{`boost::graph_traits<TriangleMesh>::%vertex_descriptor`}
-///     \cgalParamDefault{one with well-shaped triangles around it}
+///     \cgalParamDefault{the null vertex: one with well-shaped triangles around it is taken}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{moebius_weights}
 ///     \cgalParamDescription{what has its barycentre in the centre}

@@ -22,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 #include <unordered_map>
 #include <utility>
@@ -929,6 +930,25 @@ private:
   std::size_t flip_budget_;
   Delaunay_flip_counts counts_;
 };
+
+/// makes `t` the intrinsic Delaunay triangulation of its metric, by Euclidean flips. Triangles may be degenerate, or violate their inequality by
+/// the rounding of their lengths: then they count as degenerate.
+/// \param broken_faces receives the faces that violate it by more
+/// \param on_flip `on_flip(e)` is called right before the edge `e` is flipped
+/// \return `false`, and does nothing, if there are any of these
+template <typename NT, typename OnFlip>
+bool make_intrinsic_delaunay(Intrinsic_triangulation<NT>& t, std::vector<std::uint32_t>& broken_faces, OnFlip on_flip)
+{
+  for(std::uint32_t h = 0; h < t.number_of_halfedges(); h += 3)
+    if(!is_triangle_up_to_rounding(t.halfedge_length(h), t.halfedge_length(h + 1), t.halfedge_length(h + 2)))
+      broken_faces.push_back(h / 3);
+  if(!broken_faces.empty())
+    return false;
+  std::vector<std::uint32_t> all(t.number_of_edges());
+  std::iota(all.begin(), all.end(), std::uint32_t(0));
+  Delaunay_flipper<NT>(t).flip_to_delaunay(std::vector<double>(), std::move(all), Flip_rule::EUCLIDEAN, on_flip);
+  return true;
+}
 
 } // namespace internal
 } // namespace Conformal_equivalence

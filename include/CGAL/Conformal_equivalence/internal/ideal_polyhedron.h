@@ -188,7 +188,7 @@ public:
     result.unit = typical_spoke(given_, apex);
     const Punctured_surface<NT> rest = without_star(given_, apex);
     if(!rest.is_disk(apex))
-      return refused(std::move(result), Status::WRONG_TOPOLOGY);
+      return refused(std::move(result), Status::SINGULAR_PROBLEM);
     const Metric metric = compute_conformal_metric(rest.triangulation, conditions(result, rest.triangulation),
                                                    Conformal_equivalence::combine_named_parameters(solver_parameters(), parameters::retriangulation(Retriangulation::NEVER)));
     take_over(metric, result);
@@ -415,10 +415,16 @@ private:
     const Triangulation& disk = metric.triangulation;
     std::vector<char> is_touched(disk.number_of_vertices(), 0);
     bool is_changed = false;
+    std::vector<char> is_neighbour(disk.number_of_vertices(), 0); // a second edge to these would be flipped away again
+    result.triangulation.for_each_outgoing(result.apex, [&](Index h)
+    {
+      is_neighbour[result.triangulation.target(h)] = is_neighbour[result.triangulation.apex(h)] = 1;
+    });
     for(Index e = 0; e < disk.number_of_edges(); ++e)
     {
       const Index h = disk.edge_halfedge(e);
-      if(!disk.is_border(h) || !result.triangulation.is_flippable(rest.original_edge[e]) || !is_too_long(metric, h))
+      const double rounding = is_neighbour[disk.apex(h)] ? 1e-14 : 0;
+      if(!disk.is_border(h) || !result.triangulation.is_flippable(rest.original_edge[e]) || !is_too_long(metric, h, rounding))
         continue;
       flip(rest.original_edge[e], result);
       is_touched[disk.origin(h)] = is_touched[disk.target(h)] = 1;
@@ -442,10 +448,10 @@ private:
     return is_changed;
   }
 
-  static bool is_too_long(const Metric& metric, Index h)
+  static bool is_too_long(const Metric& metric, Index h, double rounding)
   {
     const Triangulation& t = metric.triangulation;
-    return metric.wide_scaled_length(t.next(h)) + metric.wide_scaled_length(t.previous(h)) < metric.wide_scaled_length(h);
+    return metric.wide_scaled_length(t.next(h)) + metric.wide_scaled_length(t.previous(h)) < (1 - rounding) * metric.wide_scaled_length(h);
   }
 
   // Is the angle of the disk above pi, by more than the residual lets it be?

@@ -11,9 +11,9 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/delaunay.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/ideal_polyhedron.h>
-#include <CGAL/Conformal_equivalence/internal/length_predicates.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/projective_interpolation.h>
 
@@ -149,8 +149,11 @@ private:
     Polyhedron result;
     Triangulation start = whole_;
     std::vector<Index> flips;
-    if(retriangulation == Retriangulation::ALWAYS && !make_delaunay(start, flips, result))
+    if(retriangulation == Retriangulation::ALWAYS && !make_intrinsic_delaunay(start, result.faces, [&](Index e) { flips.push_back(e); }))
+    {
+      result.status = Status::DEGENERATE_METRIC;
       return result;
+    }
     std::vector<Index> apices = best_apices(is_closed() ? start : surface_, 8);
     if(apex != surface_.null_index) // others lead to the same polyhedron, if this one fails
       apices.insert(apices.begin(), apex);
@@ -186,25 +189,6 @@ private:
       polyhedron.faces = flipped;
     }
     return polyhedron;
-  }
-
-  // The intrinsic Delaunay triangulation, by Euclidean flips.
-  static bool make_delaunay(Triangulation& t, std::vector<Index>& flips, Polyhedron& result)
-  {
-    for(Index h = 0; h < t.number_of_halfedges(); h += 3)
-      if(!is_triangle_up_to_rounding(t.halfedge_length(h), t.halfedge_length(h + 1), t.halfedge_length(h + 2)))
-        result.faces.push_back(h / 3);
-    if(!result.faces.empty())
-    {
-      result.status = Status::DEGENERATE_METRIC;
-      return false;
-    }
-    std::vector<Index> all(t.number_of_edges());
-    for(Index e = 0; e < t.number_of_edges(); ++e)
-      all[e] = e;
-    Delaunay_flipper<NT> flipper(t);
-    flipper.flip_to_delaunay(std::vector<double>(), std::move(all), Flip_rule::EUCLIDEAN, [&](Index e) { flips.push_back(e); });
-    return true;
   }
 
   const Triangulation& surface_;
@@ -246,7 +230,10 @@ std::uint32_t given_apex(const Imported_mesh<TriangleMesh, NT>& mesh, const Name
   if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::conformal_vertex_at_infinity_t>::value)
     return mesh.triangulation.null_index;
   else
-    return mesh.index_of_vertex(parameters::get_parameter(np, internal_np::conformal_vertex_at_infinity));
+  {
+    const auto v = parameters::get_parameter(np, internal_np::conformal_vertex_at_infinity);
+    return v == boost::graph_traits<TriangleMesh>::null_vertex() ? mesh.triangulation.null_index : mesh.index_of_vertex(v);
+  }
 }
 
 template <typename NamedParameters>
