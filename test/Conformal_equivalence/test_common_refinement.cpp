@@ -26,6 +26,7 @@
 #include <complex>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -338,6 +339,21 @@ Figures check_maps(const Triangulation& t, const Refinement& r, bool preserves_c
   return figures;
 }
 
+// Corners lie on the input where they did before the faces were cut into triangles, those between two diagonals, too.
+void check_places(const Triangulation& t, const Refinement& r, const Refinement& fine)
+{
+  typedef std::array<double, 3> Place;
+  std::map<std::pair<Index, Index>, std::set<Place> > places; // by input face and vertex: several where the face is glued to itself
+  for(Index f = 0; f < r.number_of_faces(); ++f)
+    for(std::size_t c = r.first_corner[f]; c < r.first_corner[f + 1]; ++c)
+      places[std::make_pair(r.input_face[f], r.corner_vertex[c])].insert(CE::input_barycentric(t, r, f, c));
+  std::size_t wrong = 0;
+  for(Index f = 0; f < fine.number_of_faces(); ++f)
+    for(std::size_t c = fine.first_corner[f]; c < fine.first_corner[f + 1]; ++c)
+      wrong += places[std::make_pair(fine.input_face[f], fine.corner_vertex[c])].count(CE::input_barycentric(t, fine, f, c)) == 1 ? 0 : 1;
+  BOOST_TEST(wrong == 0u);
+}
+
 Figures check_refinement(const Triangulation& t, const Metric& metric, const CE::Cut_graph& cut, const Conditions& conditions,
                          const Refinement& r, bool preserves_circles)
 {
@@ -373,6 +389,7 @@ Figures check_refinement(const Triangulation& t, const Metric& metric, const CE:
     if(!is_rounded[f])
       BOOST_TEST(area > -1e-18L * std::abs(a) * std::abs(b));
   }
+  check_places(t, r, fine);
   return figures;
 }
 

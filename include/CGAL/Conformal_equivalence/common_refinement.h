@@ -482,15 +482,20 @@ std::array<NT, 3> input_barycentric(const Intrinsic_triangulation<NT>& input, co
   const Index after = refinement.corner_halfedge[corner],
               before = refinement.corner_halfedge[corner == first ? last : corner - 1],
               far = refinement.corner_halfedge[corner == last ? first : corner + 1];
+  const Index none = refinement.null_index, face = refinement.input_face[f], v = refinement.corner_vertex[corner];
   std::array<NT, 3> result = {{NT(0), NT(0), NT(0)}};
-  if(refinement.corner_vertex[corner] < refinement.number_of_input_vertices)
+  if(v < refinement.number_of_input_vertices)
   {
-    const Index h = after != refinement.null_index ? after : before != refinement.null_index ? input.next(before) : input.previous(far);
+    Index h = after != none ? after : before != none ? input.next(before) : far != none ? input.previous(far) : 3 * face;
+    while(input.origin(h) != v) // at a corner between diagonals of a part no side is known
+      h = input.next(h);
     result[h % 3] = NT(1);
     return result;
   }
-  const Index h = after != refinement.null_index ? after : before;
-  const auto& crossing = refinement.crossings[refinement.corner_vertex[corner] - refinement.number_of_input_vertices];
+  const auto& crossing = refinement.crossings[v - refinement.number_of_input_vertices];
+  const Index first_side = input.edge_halfedge(crossing.input_edge);
+  const Index h = after != none ? after : before != none ? before
+                : input.face(first_side) == face ? first_side : input.twin(first_side);
   const bool is_first = h == input.edge_halfedge(crossing.input_edge);
   result[(is_first ? h : input.next(h)) % 3] = 1 - crossing.input_parameter;
   result[(is_first ? input.next(h) : h) % 3] = crossing.input_parameter;

@@ -1,0 +1,528 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file Surface_correspondence.h
+/// Two surfaces, point by point. Two closed surfaces without handles have the unit sphere in common, two disks the unit disk: the
+/// map of the one to it (section 4.3 of Springborn, Schroeder and Pinkall, 2008; map_to_sphere.h, map_to_disk.h), followed by the
+/// inverse of that of the other, takes the points of the one to those of the other. Within triangles, or the parts of triangles
+/// where edges were flipped, either map is projective (section 3.4).
+///
+///             A                                        B
+///        +---------+      +------------------+      +-----+
+///        |   x     | ---> |  sphere or disk  | ---> | y   |         y = correspondence(x)
+///        +---------+      +------------------+      +-----+         x = correspondence.inverse(y)
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_SURFACE_CORRESPONDENCE_H
+#define CGAL_CONFORMAL_EQUIVALENCE_SURFACE_CORRESPONDENCE_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Image_border.h>
+#include <CGAL/Conformal_equivalence/internal/Projective_atlas.h>
+#include <CGAL/Conformal_equivalence/internal/Three_point_transformation.h>
+#include <CGAL/Conformal_equivalence/internal/double.h>
+#include <CGAL/Conformal_equivalence/internal/ideal_refinement.h>
+#include <CGAL/Conformal_equivalence/internal/light_cone.h>
+#include <CGAL/Conformal_equivalence/map_to_disk.h>
+#include <CGAL/Conformal_equivalence/map_to_sphere.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+
+#include <CGAL/assertions.h>
+
+#include <boost/graph/graph_traits.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+namespace internal {
+
+// The vectors of the vertices of the refinement that a map has found. `input`: what was flipped, the surface or its double
+template <typename Mapping, typename Weight>
+std::vector<Light_vector<Wide_number> > refined_vectors(const Mapping& mapping, const Common_refinement<double>& parts,
+                                                        const Intrinsic_triangulation<double>& input, Weight weight)
+{
+  const Intrinsic_triangulation<double>& t = mapping.mesh.triangulation;
+  if(parts.crossings.empty())
+    return { mapping.polyhedron.vectors.begin(), mapping.polyhedron.vectors.begin() + std::ptrdiff_t(t.number_of_vertices()) };
+  const Surface_size size = { t.number_of_vertices(), t.number_of_edges(), t.number_of_faces() };
+  return Ideal_refinement_builder<double>(input, mapping.polyhedron, size)(default_maximum_number_of_crossings, weight).vectors;
+}
+
+// Fills the atlas, and names faces that are not positive.
+template <typename TriangleMesh>
+void set_atlas(Projective_atlas<TriangleMesh>& atlas, Common_refinement<double> parts, std::vector<Wide_vector> points,
+               std::vector<Wide_number> weights, Flattening_report<TriangleMesh>& report)
+{
+  const std::vector<std::uint32_t> flipped = atlas.set(std::move(parts), std::move(points), std::move(weights));
+  if(flipped.empty())
+    return;
+  report.status = Status::NOT_INJECTIVE;
+  name_elements(atlas.mesh(), {}, {}, flipped, report);
+}
+
+} // namespace internal
+
+/// \ingroup PkgConformalEquivalenceLayout
+///
+/// maps a closed mesh of genus 0 to the unit sphere, as `map_to_sphere()` does, and answers where a point of the mesh lies on the
+/// sphere, and which point of the mesh lies in a direction. Where edges were flipped, triangles are mapped part by part
+/// (`Spherical_refinement`).
+///
+/// The triangle, or part, that holds a direction is found by exact predicates on the points as they were computed, in pairs of
+/// `double`: every direction has one, also on edges and at vertices. Keeps a reference to the mesh. Queries change nothing: any
+/// number of them may run at the same time.
+///
+/// \tparam TriangleMesh a model of `FaceListGraph`
+template <typename TriangleMesh>
+class Sphere_locator
+{
+  typedef boost::graph_traits<TriangleMesh> Traits;
+
+public:
+  typedef TriangleMesh Triangle_mesh;                           ///< type of the mesh
+  typedef typename Traits::vertex_descriptor vertex_descriptor; ///< of the mesh
+  typedef typename Traits::face_descriptor face_descriptor;     ///< of the mesh
+
+  /// A point of the mesh: a face, and barycentric coordinates with sum 1, none negative, of the vertices around the face from
+  /// `source(halfedge(f, tm), tm)` on. It is the `Face_location` of Polygon Mesh Processing.
+  typedef std::pair<face_descriptor, std::array<double, 3> > Face_location;
+
+  typedef std::array<double, 3> Image_point; ///< a point of space
+
+  /// maps the mesh. Time is that of `map_to_sphere()` with a refinement, and O(n log n) for `n` faces and crossings.
+  ///
+  /// \param tm a triangle mesh
+  /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of `map_to_sphere()`; of those
+  ///        that receive results, only `visitor` has an effect
+  template <typename NamedParameters = parameters::Default_named_parameters>
+  explicit Sphere_locator(const TriangleMesh& tm, const NamedParameters& np = parameters::default_values())
+    : atlas_(Imported_mesh<TriangleMesh>(tm))
+  {
+    internal::Sphere_mapping<TriangleMesh, double> mapping(tm);
+    mapping.run(np, true);
+    report_ = mapping.report;
+    try
+    {
+      if(bool(report_))
+        set(mapping);
+    }
+    catch(const std::bad_alloc&)
+    {
+      report_.status = Status::OUT_OF_MEMORY;
+    }
+  }
+
+  /// the report of `map_to_sphere()`
+  const Flattening_report<TriangleMesh>& report() const { return report_; }
+
+  /// is `true` iff there are answers.
+  explicit operator bool() const { return bool(report_); }
+
+  /// returns where a vertex is. \pre `v` is not isolated
+  Face_location vertex_location(vertex_descriptor v) const { return atlas_.vertex_location(v); }
+
+  /// returns the point of the unit sphere at which a point of the mesh lies. Linear in the number of parts of the face, of which
+  /// there is one without flips.
+  /// \pre the locator is a success; the coordinates are finite, and one is positive; they need not sum up to 1, and negative ones
+  /// count as 0
+  Image_point image_point(const Face_location& location) const
+  {
+    CGAL_precondition(bool(*this));
+    return internal::rounded_vector(internal::unit_vector(image(location)));
+  }
+
+  /// returns the point of the mesh that lies in the direction `d`. About O(log n), where points do not crowd beyond the
+  /// resolution of `double`. On an edge, any of its faces is chosen, but always the same one.
+  /// \pre the locator is a success; `d` is finite and not 0
+  Face_location surface_point(const Image_point& d) const
+  {
+    return preimage({{ internal::Wide_number(d[0]), internal::Wide_number(d[1]), internal::Wide_number(d[2]) }});
+  }
+
+private:
+  template <typename LocatorA, typename LocatorB> friend class Surface_correspondence;
+
+  void set(internal::Sphere_mapping<TriangleMesh, double>& mapping)
+  {
+    using internal::Light_vector;
+    using internal::Wide_number;
+    Common_refinement<double> parts = std::move(mapping.refinement.parts);
+    std::vector<internal::Wide_vector> points;
+    std::vector<Wide_number> weights;
+    for(const Light_vector<Wide_number>& v : internal::refined_vectors(mapping, parts, mapping.mesh.triangulation,
+                                                                       [](const Light_vector<Wide_number>& x) { return x[3]; }))
+    {
+      const bool is_used = v[3] > Wide_number(0);
+      points.push_back(is_used ? internal::sphere_point(v) : internal::Wide_vector{{ Wide_number(0), Wide_number(0), Wide_number(0) }});
+      weights.push_back(sqrt(Wide_number(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))); // crossings lie within the sphere
+    }
+    atlas_ = internal::Projective_atlas<TriangleMesh>(std::move(mapping.mesh));
+    internal::set_atlas(atlas_, std::move(parts), std::move(points), std::move(weights), report_);
+  }
+
+  // A vector in the direction of the point; of length 1 for a vertex
+  internal::Wide_vector image(const Face_location& location) const { return atlas_.image(location); }
+
+  Face_location preimage(const internal::Wide_vector& d) const
+  {
+    CGAL_precondition(bool(*this));
+    const std::optional<Face_location> result = atlas_.preimage(d);
+    CGAL_assertion_msg(bool(result), "positive triangles that cover the sphere once hold every direction");
+    return *result;
+  }
+
+  internal::Projective_atlas<TriangleMesh> atlas_;
+  Flattening_report<TriangleMesh> report_;
+};
+
+/// \ingroup PkgConformalEquivalenceLayout
+///
+/// maps a topological disk to the unit disk, as `map_to_disk()` does, and answers where a point of the mesh lies in the disk, and
+/// which point of the mesh lies at a point of the plane. Where edges were flipped, triangles are mapped part by part
+/// (`Common_refinement`).
+///
+/// The image is a polygon inscribed to the circle. What lies outside of it, between its sides and the circle, say, belongs to the
+/// nearest point of its border. The triangle, or part, that holds a point is found by exact predicates on the points as they were
+/// computed, in pairs of `double`. Keeps a reference to the mesh. Queries change nothing: any number of them may run at the same
+/// time.
+///
+/// \tparam TriangleMesh a model of `FaceListGraph`
+template <typename TriangleMesh>
+class Disk_locator
+{
+  typedef boost::graph_traits<TriangleMesh> Traits;
+
+public:
+  typedef TriangleMesh Triangle_mesh;                           ///< type of the mesh
+  typedef typename Traits::vertex_descriptor vertex_descriptor; ///< of the mesh
+  typedef typename Traits::face_descriptor face_descriptor;     ///< of the mesh
+
+  /// A point of the mesh, as `Sphere_locator::Face_location`.
+  typedef std::pair<face_descriptor, std::array<double, 3> > Face_location;
+
+  typedef std::array<double, 2> Image_point; ///< a point of the plane
+
+  /// maps the mesh. Time is that of `map_to_disk()` with a refinement, and O(n log n) for `n` faces and crossings.
+  ///
+  /// \param tm a triangle mesh
+  /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of `map_to_disk()`; of those that
+  ///        receive results, only `visitor` has an effect
+  template <typename NamedParameters = parameters::Default_named_parameters>
+  explicit Disk_locator(const TriangleMesh& tm, const NamedParameters& np = parameters::default_values())
+    : atlas_(Imported_mesh<TriangleMesh>(tm))
+  {
+    internal::Disk_mapping<TriangleMesh, double> mapping(tm);
+    mapping.run(np, true, true);
+    report_ = mapping.report;
+    try
+    {
+      if(bool(report_))
+        set(mapping);
+    }
+    catch(const std::bad_alloc&)
+    {
+      report_.status = Status::OUT_OF_MEMORY;
+    }
+  }
+
+  /// the report of `map_to_disk()`
+  const Flattening_report<TriangleMesh>& report() const { return report_; }
+
+  /// is `true` iff there are answers.
+  explicit operator bool() const { return bool(report_); }
+
+  /// returns where a vertex is. \pre `v` is not isolated
+  Face_location vertex_location(vertex_descriptor v) const { return atlas_.vertex_location(v); }
+
+  /// returns the point of the unit disk at which a point of the mesh lies. Linear in the number of parts of the face, of which
+  /// there is one without flips.
+  /// \pre as for `Sphere_locator::image_point()`
+  Image_point image_point(const Face_location& location) const
+  {
+    CGAL_precondition(bool(*this));
+    const internal::Wide_vector p = image(location);
+    return {{ static_cast<double>(p[0]), static_cast<double>(p[1]) }};
+  }
+
+  /// returns the point of the mesh that lies at `p`, or, if `p` is outside of the image, at the point of its border that is
+  /// nearest to `p`. About O(log n), where points do not crowd beyond the resolution of `double`. On an edge, any of its faces is
+  /// chosen, but always the same one.
+  /// \pre the locator is a success; `p` is finite
+  Face_location surface_point(const Image_point& p) const
+  {
+    return preimage({{ internal::Wide_number(p[0]), internal::Wide_number(p[1]), internal::Wide_number(1) }});
+  }
+
+private:
+  template <typename LocatorA, typename LocatorB> friend class Surface_correspondence;
+
+  typedef internal::Light_vector<internal::Wide_number> Vector;
+
+  static internal::Wide_number weight(const Vector& v) { return v[3] + v[1]; }
+
+  // Stereographic projection from (0, -1, 0), with border vertices on the circle.
+  static internal::Wide_vector point(const Vector& v)
+  {
+    using internal::Wide_number;
+    if(!(v[3] > Wide_number(0)))
+      return {{ Wide_number(0), Wide_number(0), Wide_number(1) }};
+    const Wide_number size = v[1] == Wide_number(0) ? Wide_number(sqrt(Wide_number(v[2] * v[2] + v[0] * v[0]))) : weight(v);
+    return {{ v[2] / size, v[0] / size, Wide_number(1) }};
+  }
+
+  void set(internal::Disk_mapping<TriangleMesh, double>& mapping)
+  {
+    const Intrinsic_triangulation<double>& t = mapping.mesh.triangulation;
+    const bool is_doubled = mapping.polyhedron.triangulation.number_of_faces() != t.number_of_faces();
+    Common_refinement<double> parts = std::move(mapping.refinement);
+    const std::vector<Vector> vectors = internal::refined_vectors(
+      mapping, parts, is_doubled ? internal::Surface_double<double>(t).triangulation : t, [](const Vector& v) { return weight(v); });
+    std::vector<internal::Wide_vector> points;
+    std::vector<internal::Wide_number> weights;
+    for(const Vector& v : vectors)
+    {
+      points.push_back(point(v));
+      weights.push_back(weight(v));
+    }
+    atlas_ = internal::Projective_atlas<TriangleMesh>(std::move(mapping.mesh));
+    internal::set_atlas(atlas_, std::move(parts), std::move(points), std::move(weights), report_);
+    if(bool(report_))
+      border_ = internal::Image_border(atlas_.mesh().triangulation, atlas_.parts(), [&](std::uint32_t v) { return atlas_.point(v); });
+  }
+
+  internal::Wide_vector image(const Face_location& location) const
+  {
+    const internal::Wide_vector p = atlas_.image(location);
+    return {{ p[0] / p[2], p[1] / p[2], internal::Wide_number(1) }};
+  }
+
+  Face_location preimage(const internal::Wide_vector& p) const
+  {
+    CGAL_precondition(bool(*this));
+    if(const std::optional<Face_location> result = atlas_.preimage(p))
+      return *result;
+    const internal::Image_border::Border_point nearest = border_.nearest({{ p[0] / p[2], p[1] / p[2] }});
+    return atlas_.location(nearest.part, nearest.coordinates);
+  }
+
+  internal::Projective_atlas<TriangleMesh> atlas_;
+  internal::Image_border border_;
+  Flattening_report<TriangleMesh> report_;
+};
+
+/// \ingroup PkgConformalEquivalenceLayout
+///
+/// Three vertices of one surface, and those of another one that correspond to them.
+///
+/// \tparam VertexA, VertexB vertex descriptors
+template <typename VertexA, typename VertexB>
+struct Three_landmarks
+{
+  std::array<VertexA, 3> a; ///< different vertices of the first surface
+  std::array<VertexB, 3> b; ///< different vertices of the second surface
+};
+
+/// \ingroup PkgConformalEquivalenceLayout
+///
+/// The composed map of two surfaces with the same image, and its inverse: `make_sphere_correspondence()` and
+/// `make_disk_correspondence()` make it.
+///
+/// Between two spheres it is one-to-one, and continuous: a path on the one becomes a path on the other. Points that go there and
+/// back return to where they were, but for rounding: that of barycentric coordinates in `double`, as much as the maps stretch it.
+/// Between two disks it is continuous, too, and takes all of the one to the other, but for the slivers by which the two inscribed
+/// polygons differ: their points go to the nearest ones of the border.
+///
+/// Conformally equivalent surfaces with the same triangulation correspond vertex by vertex, if three vertices do.
+///
+/// \tparam LocatorA, LocatorB two instances of `Sphere_locator`, or of `Disk_locator`
+template <typename LocatorA, typename LocatorB>
+class Surface_correspondence
+{
+public:
+  typedef typename LocatorA::vertex_descriptor Vertex_a;    ///< of the first surface
+  typedef typename LocatorB::vertex_descriptor Vertex_b;    ///< of the second surface
+  typedef typename LocatorA::Face_location Face_location_a; ///< a point of the first surface
+  typedef typename LocatorB::Face_location Face_location_b; ///< a point of the second surface
+
+  /// composes two maps, as they are.
+  Surface_correspondence(LocatorA a, LocatorB b) : a_(std::move(a)), b_(std::move(b)), status_(status_of_maps()) {}
+
+  /// composes two maps to the sphere, with the Moebius transformation of it between them that brings three points to three others.
+  Surface_correspondence(LocatorA a, LocatorB b, const Three_landmarks<Vertex_a, Vertex_b>& landmarks)
+    : Surface_correspondence(std::move(a), std::move(b))
+  {
+    if(!is_success(status_))
+      return;
+    internal::Three_point_transformation::Three_points a_points, b_points;
+    for(std::size_t i = 0; i < 3; ++i)
+    {
+      a_points[i] = a_.image(a_.vertex_location(landmarks.a[i]));
+      b_points[i] = b_.image(b_.vertex_location(landmarks.b[i]));
+    }
+    forward_.emplace(a_points, b_points);
+    backward_.emplace(b_points, a_points);
+    if(!forward_->is_valid())
+      status_ = Status::SINGULAR_PROBLEM;
+  }
+
+  /// `OK`, or else the status of the map that failed; `SINGULAR_PROBLEM` if two landmarks lie at the same point
+  Status status() const { return status_; }
+
+  /// is `true` iff there are answers.
+  explicit operator bool() const { return is_success(status_); }
+
+  const LocatorA& first() const { return a_; }  ///< the map of the first surface, with its report
+  const LocatorB& second() const { return b_; } ///< the map of the second surface, with its report
+
+  /// returns the point of the second surface that corresponds to one of the first.
+  /// \pre the correspondence is a success; otherwise as for `Sphere_locator::image_point()`, in time, too
+  Face_location_b operator()(const Face_location_a& location) const
+  {
+    CGAL_precondition(bool(*this));
+    return b_.preimage(moved(a_.image(location), forward_));
+  }
+
+  /// returns the point of the second surface that corresponds to a vertex of the first.
+  Face_location_b operator()(Vertex_a v) const { return (*this)(a_.vertex_location(v)); }
+
+  /// returns the point of the first surface that corresponds to one of the second.
+  /// \pre as above
+  Face_location_a inverse(const Face_location_b& location) const
+  {
+    CGAL_precondition(bool(*this));
+    return a_.preimage(moved(b_.image(location), backward_));
+  }
+
+  /// returns the point of the first surface that corresponds to a vertex of the second.
+  Face_location_a inverse(Vertex_b v) const { return inverse(b_.vertex_location(v)); }
+
+private:
+  typedef std::optional<internal::Three_point_transformation> Transformation;
+
+  Status status_of_maps() const { return bool(a_) ? b_.report().status : a_.report().status; }
+
+  static internal::Wide_vector moved(const internal::Wide_vector& p, const Transformation& transformation)
+  {
+    return transformation ? (*transformation)(internal::unit_vector(p)) : p;
+  }
+
+  LocatorA a_;
+  LocatorB b_;
+  Transformation forward_, backward_;
+  Status status_;
+};
+
+/// \ingroup PkgConformalEquivalenceLayout
+/// Between two closed surfaces of genus 0.
+template <typename TriangleMeshA, typename TriangleMeshB>
+using Sphere_correspondence = Surface_correspondence<Sphere_locator<TriangleMeshA>, Sphere_locator<TriangleMeshB> >;
+
+/// \ingroup PkgConformalEquivalenceLayout
+/// Between two topological disks.
+template <typename TriangleMeshA, typename TriangleMeshB>
+using Disk_correspondence = Surface_correspondence<Disk_locator<TriangleMeshA>, Disk_locator<TriangleMeshB> >;
+
+/// \ingroup PkgConformalEquivalenceDoors
+///
+/// maps two closed surfaces of genus 0 to each other, by way of the unit sphere. Both are turned as `map_to_sphere()` does it, to
+/// the points of their own vertices: so surfaces should look into the same direction, or be given landmarks.
+///
+/// \tparam TriangleMeshA, TriangleMeshB models of `FaceListGraph`
+/// \param a, b the surfaces, of which references are kept
+/// \param np_a, np_b optional sequences of \ref bgl_namedparameters "Named Parameters" for either, as for `Sphere_locator`
+/// \return the map of points of `a` to those of `b`. Reports are in its `first()` and `second()`.
+///
+/// \sa `CGAL::Conformal_equivalence::map_to_sphere()`
+template <typename TriangleMeshA, typename TriangleMeshB,
+          typename NamedParametersA = parameters::Default_named_parameters,
+          typename NamedParametersB = parameters::Default_named_parameters>
+Sphere_correspondence<TriangleMeshA, TriangleMeshB>
+make_sphere_correspondence(const TriangleMeshA& a, const TriangleMeshB& b,
+                           const NamedParametersA& np_a = parameters::default_values(),
+                           const NamedParametersB& np_b = parameters::default_values())
+{
+  return { Sphere_locator<TriangleMeshA>(a, np_a), Sphere_locator<TriangleMeshB>(b, np_b) };
+}
+
+/// \ingroup PkgConformalEquivalenceDoors
+///
+/// maps two closed surfaces of genus 0 to each other, by way of the unit sphere, so that three landmarks correspond: there is
+/// exactly one Moebius transformation of the sphere that does it.
+///
+/// \param a, b, np_a, np_b as above
+/// \param landmarks three vertices on either side. \pre none of them is isolated
+/// \return as above; `SINGULAR_PROBLEM` if two landmarks of one side lie at the same point
+template <typename TriangleMeshA, typename TriangleMeshB, typename VertexA, typename VertexB,
+          typename NamedParametersA = parameters::Default_named_parameters,
+          typename NamedParametersB = parameters::Default_named_parameters>
+Sphere_correspondence<TriangleMeshA, TriangleMeshB>
+make_sphere_correspondence(const TriangleMeshA& a, const TriangleMeshB& b,
+                           const Three_landmarks<VertexA, VertexB>& landmarks,
+                           const NamedParametersA& np_a = parameters::default_values(),
+                           const NamedParametersB& np_b = parameters::default_values())
+{
+  return { Sphere_locator<TriangleMeshA>(a, np_a), Sphere_locator<TriangleMeshB>(b, np_b), landmarks };
+}
+
+/// \ingroup PkgConformalEquivalenceDoors
+///
+/// maps two topological disks to each other, by way of the unit disk. Which of the maps this is, is said by their frames
+/// (`disk_frame`): the same inner point in the centre of both, say.
+///
+/// \tparam TriangleMeshA, TriangleMeshB models of `FaceListGraph`
+/// \param a, b the surfaces, of which references are kept
+/// \param np_a, np_b optional sequences of \ref bgl_namedparameters "Named Parameters" for either, as for `Disk_locator`
+/// \return the map of points of `a` to those of `b`. Reports are in its `first()` and `second()`.
+///
+/// \sa `CGAL::Conformal_equivalence::map_to_disk()`
+template <typename TriangleMeshA, typename TriangleMeshB,
+          typename NamedParametersA = parameters::Default_named_parameters,
+          typename NamedParametersB = parameters::Default_named_parameters>
+Disk_correspondence<TriangleMeshA, TriangleMeshB>
+make_disk_correspondence(const TriangleMeshA& a, const TriangleMeshB& b,
+                         const NamedParametersA& np_a = parameters::default_values(),
+                         const NamedParametersB& np_b = parameters::default_values())
+{
+  return { Disk_locator<TriangleMeshA>(a, np_a), Disk_locator<TriangleMeshB>(b, np_b) };
+}
+
+/// \ingroup PkgConformalEquivalenceDoors
+///
+/// maps two topological disks to each other, by way of the unit disk, so that three landmarks on the borders correspond
+/// (`Three_point_disk_frame`).
+///
+/// \param a, b, np_a, np_b as above; frames among them do not count
+/// \param landmarks three border vertices on either side, in the order in which they follow each other with the surface on the left
+/// \return as above; `SINGULAR_PROBLEM` if landmarks are in the other order
+template <typename TriangleMeshA, typename TriangleMeshB, typename VertexA, typename VertexB,
+          typename NamedParametersA = parameters::Default_named_parameters,
+          typename NamedParametersB = parameters::Default_named_parameters>
+Disk_correspondence<TriangleMeshA, TriangleMeshB>
+make_disk_correspondence(const TriangleMeshA& a, const TriangleMeshB& b,
+                         const Three_landmarks<VertexA, VertexB>& landmarks,
+                         const NamedParametersA& np_a = parameters::default_values(),
+                         const NamedParametersB& np_b = parameters::default_values())
+{
+  const Three_point_disk_frame<VertexA> frame_a = { landmarks.a };
+  const Three_point_disk_frame<VertexB> frame_b = { landmarks.b };
+  return { Disk_locator<TriangleMeshA>(a, combine_named_parameters(np_a, parameters::disk_frame(frame_a))),
+           Disk_locator<TriangleMeshB>(b, combine_named_parameters(np_b, parameters::disk_frame(frame_b))) };
+}
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_SURFACE_CORRESPONDENCE_H
