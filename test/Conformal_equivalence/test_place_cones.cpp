@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(moves_are_foreseen_to_first_order)
       if(!is_free)
         p.angles = {2 * pi - height * height, 2 * pi + 2 * height * height};
       BOOST_REQUIRE(search.relax(p, 60, 1e-13));
-      const double expected = search.measure_if_moved(p, 1, search.candidates()[120]);
+      const double expected = search.measure_if_moved(p, 1, search.curvature(p, 1), search.candidates()[120]);
       Placement moved = p;
       moved.cones[1] = search.candidates()[120];
       BOOST_REQUIRE(search.relax(moved, 60, 1e-13));

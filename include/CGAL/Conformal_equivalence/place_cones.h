@@ -320,11 +320,11 @@ private:
 
   bool improve(Search& search, Placement& p, std::size_t i, std::size_t reach)
   {
-    const double gain = 1e-6;
+    const double gain = reach == 1 ? 1e-4 : 1e-3, curvature = search.curvature(p, i);
     std::vector<std::pair<double, Index> > trials; // by what is expected
     for(Index v : ring(p.cones[i], reach))
       if(!t_.is_border_vertex(v) && !p.is_cone(v))
-        trials.emplace_back(search.measure_if_moved(p, i, v), v);
+        trials.emplace_back(search.measure_if_moved(p, i, curvature, v), v);
     std::sort(trials.begin(), trials.end());
     const std::size_t most = 1;
     for(std::size_t k = 0; k < trials.size() && k < most && trials[k].first < (1 - gain) * p.measure; ++k)

@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -143,32 +144,37 @@ public:
     return std::isfinite(size);
   }
 
-  // The measure after the cone number i has moved to v, as far as u depends linearly on forces.
-  double measure_if_moved(const Placement& p, std::size_t i, Index v)
+  // The curvature at the cone number i, which is the force that acts on u there.
+  double curvature(const Placement& p, std::size_t i)
+  {
+    if(!p.angles.empty())
+      return flat_angle(p) - p.angles[i];
+    energy_.evaluate(p.u);
+    return flat_angle(p) - energy_.angle_sums()[p.cones[i]];
+  }
+
+  // The measure after the cone number i, which has that curvature, has moved to v, as far as u depends linearly on forces.
+  double measure_if_moved(const Placement& p, std::size_t i, double curvature, Index v)
   {
     Placement moved = p;
     moved.cones[i] = v;
+    const Response from = response(p.cones[i]), to = response(v);
+    Vertex_vector d(p.u.size());
+    for(std::size_t w = 0; w < d.size(); ++w)
+      d[w] = -curvature * (*from)[w];
     if(p.angles.empty())
     {
-      // from one place to the other at the same u, whose angles are right but at the cones
-      Vertex_vector d(p.u.size(), 0.);
-      const Vertex_vector old_force = response(p.cones[i]);
-      const double strength = force_at(p, i);
-      for(std::size_t w = 0; w < d.size(); ++w)
-        d[w] = -strength * old_force[w];
-      if(!correct(moved, -strength, d))
+      if(!correct(moved, -curvature, d))
         return std::numeric_limits<double>::infinity();
-      for(std::size_t w = 0; w < d.size(); ++w)
-        moved.u[w] += d[w];
     }
     else
     {
-      const double strength = p.angles[i] - 2 * Number_constants<double>::pi();
-      const Vertex_vector from = response(p.cones[i]), to = response(v);
-      for(std::size_t w = 0; w < moved.u.size(); ++w)
-        moved.u[w] += strength * (from[w] - to[w]);
-      centre(moved.u);
+      for(std::size_t w = 0; w < d.size(); ++w)
+        d[w] += curvature * (*to)[w];
+      centre_change(p.u, d);
     }
+    for(std::size_t w = 0; w < d.size(); ++w)
+      moved.u[w] += d[w];
     judge(moved);
     return moved.measure;
   }
@@ -179,7 +185,7 @@ public:
     std::vector<std::pair<double, std::size_t> > influence;
     const Index worst = worst_vertex(p);
     for(std::size_t i = 0; i < p.cones.size(); ++i)
-      influence.emplace_back(worst == t_.null_index ? 0 : -std::abs(response(p.cones[i])[worst]), i);
+      influence.emplace_back(worst == t_.null_index ? 0 : -std::abs((*response(p.cones[i]))[worst]), i);
     std::sort(influence.begin(), influence.end());
     std::vector<std::size_t> result;
     for(const auto& x : influence)
@@ -206,8 +212,10 @@ public:
   }
 
 private:
+  typedef std::shared_ptr<const Vertex_vector> Response;
+
   // The response of u to a unit force; kept, as long as memory is modest.
-  Vertex_vector response(Index c)
+  Response response(Index c)
   {
     const auto known = response_.find(c);
     if(known != response_.end())
@@ -221,7 +229,7 @@ private:
       linear_.precondition(force, g);
       ++number_of_solves_;
     }
-    return response_.emplace(c, std::move(g)).first->second;
+    return response_.emplace(c, std::make_shared<const Vertex_vector>(std::move(g))).first->second;
   }
 
   // d += forces at the cones and a constant, so that u + d is 0 at the cones. `total`: the sum of all forces that have made d
@@ -235,13 +243,13 @@ private:
     }
     Eigen::MatrixXd m = Eigen::MatrixXd::Zero(Eigen::Index(n), Eigen::Index(n));
     Eigen::VectorXd b = Eigen::VectorXd::Zero(Eigen::Index(n));
-    std::vector<Vertex_vector> g;
+    std::vector<Response> g;
     for(Index c : p.cones)
       g.push_back(response(c));
     for(std::size_t i = 0; i < k; ++i)
     {
       for(std::size_t j = 0; j < k; ++j)
-        m(Eigen::Index(i), Eigen::Index(j)) = g[j][p.cones[i]];
+        m(Eigen::Index(i), Eigen::Index(j)) = (*g[j])[p.cones[i]];
       b[Eigen::Index(i)] = -p.u[p.cones[i]] - d[p.cones[i]];
     }
     if(is_closed_)
@@ -253,28 +261,20 @@ private:
     const Eigen::VectorXd x = m.fullPivLu().solve(b);
     if(!x.allFinite())
       return false;
-    for(std::size_t v = 0; v < d.size(); ++v)
+    for(std::size_t j = 0; j < k; ++j)
     {
-      for(std::size_t j = 0; j < k; ++j)
-        d[v] += x[Eigen::Index(j)] * g[j][v];
-      if(is_closed_)
-        d[v] += x[Eigen::Index(k)];
+      const Vertex_vector& g_j = *g[j];
+      const double x_j = x[Eigen::Index(j)];
+      for(std::size_t v = 0; v < d.size(); ++v)
+        d[v] += x_j * g_j[v];
     }
+    if(is_closed_)
+      for(double& y : d)
+        y += x[Eigen::Index(k)];
     return true;
   }
 
-  // Without a cone that is free nothing determines the scale of a closed surface: the mean of u is 0.
-  void centre(Vertex_vector& u) const
-  {
-    if(!is_closed_)
-      return;
-    double sum = 0;
-    for(Index v : inner_)
-      sum += u[v];
-    for(Index v : inner_)
-      u[v] -= sum / double(inner_.size());
-  }
-
+  // Without a free cone nothing determines the scale of a closed surface: the mean of u + d is to be 0.
   void centre_change(const Vertex_vector& u, Vertex_vector& d) const
   {
     if(!is_closed_)
@@ -284,13 +284,6 @@ private:
       sum += u[v] + d[v];
     for(Index v : inner_)
       d[v] -= sum / double(inner_.size());
-  }
-
-  // The angle sum that is missing at the cone number i, that is, the force that holds u there.
-  double force_at(const Placement& p, std::size_t i)
-  {
-    energy_.evaluate(p.u);
-    return flat_angle(p) - energy_.angle_sums()[p.cones[i]];
   }
 
   // The residual of the angles at u, 0 at free cones; and how much is wrong: angles, in radians, and u at free cones.
@@ -360,7 +353,7 @@ private:
   std::vector<Index> inner_;
   Index ground_ = Triangulation::null_index;
   std::vector<double> first_weights_;
-  std::map<Index, Vertex_vector> response_;
+  std::map<Index, Response> response_;
   std::size_t number_of_solves_ = 0;
 };
 
