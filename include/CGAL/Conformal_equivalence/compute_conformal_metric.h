@@ -428,8 +428,10 @@ private:
       observer.before_flip(result.triangulation, e);
       flipped.push_back(e);
     });
-    if(!is_possible) // (there are only given faces: what is doubled was found to be possible before)
+    if(!is_possible)
     {
+      // those of the surface come before their images
+      result.faces.erase(std::lower_bound(result.faces.begin(), result.faces.end(), triangulation_.number_of_faces()), result.faces.end());
       result.status = Status::DEGENERATE_METRIC;
       return false;
     }

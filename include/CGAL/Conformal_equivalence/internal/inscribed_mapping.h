@@ -151,6 +151,8 @@ private:
     std::vector<Index> flips;
     if(retriangulation == Retriangulation::ALWAYS && !make_intrinsic_delaunay(start, result.faces, [&](Index e) { flips.push_back(e); }))
     {
+      // those of the surface come before their images
+      result.faces.erase(std::lower_bound(result.faces.begin(), result.faces.end(), surface_.number_of_faces()), result.faces.end());
       result.status = Status::DEGENERATE_METRIC;
       return result;
     }
