@@ -24,8 +24,6 @@
 #include <CGAL/Conformal_equivalence/internal/Image_border.h>
 #include <CGAL/Conformal_equivalence/internal/Projective_atlas.h>
 #include <CGAL/Conformal_equivalence/internal/Three_point_transformation.h>
-#include <CGAL/Conformal_equivalence/internal/double.h>
-#include <CGAL/Conformal_equivalence/internal/ideal_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/light_cone.h>
 #include <CGAL/Conformal_equivalence/map_to_disk.h>
 #include <CGAL/Conformal_equivalence/map_to_sphere.h>
@@ -48,18 +46,6 @@ namespace CGAL {
 namespace Conformal_equivalence {
 
 namespace internal {
-
-// The vectors of the vertices of the refinement that a map has found. `input`: what was flipped, the surface or its double
-template <typename Mapping, typename Weight>
-std::vector<Light_vector<Wide_number> > refined_vectors(const Mapping& mapping, const Common_refinement<double>& parts,
-                                                        const Intrinsic_triangulation<double>& input, Weight weight)
-{
-  const Intrinsic_triangulation<double>& t = mapping.mesh.triangulation;
-  if(parts.crossings.empty())
-    return { mapping.polyhedron.vectors.begin(), mapping.polyhedron.vectors.begin() + std::ptrdiff_t(t.number_of_vertices()) };
-  const Surface_size size = { t.number_of_vertices(), t.number_of_edges(), t.number_of_faces() };
-  return Ideal_refinement_builder<double>(input, mapping.polyhedron, size)(default_maximum_number_of_crossings, weight).vectors;
-}
 
 // Fills the atlas, and names faces that are not positive.
 template <typename TriangleMesh>
@@ -162,8 +148,7 @@ private:
     Common_refinement<double> parts = std::move(mapping.refinement.parts);
     std::vector<internal::Wide_vector> points;
     std::vector<Wide_number> weights;
-    for(const Light_vector<Wide_number>& v : internal::refined_vectors(mapping, parts, mapping.mesh.triangulation,
-                                                                       [](const Light_vector<Wide_number>& x) { return x[3]; }))
+    for(const Light_vector<Wide_number>& v : mapping.refined_vectors)
     {
       const bool is_used = v[3] > Wide_number(0);
       points.push_back(is_used ? internal::sphere_point(v) : internal::Wide_vector{{ Wide_number(0), Wide_number(0), Wide_number(0) }});
@@ -271,31 +256,24 @@ private:
 
   typedef internal::Light_vector<internal::Wide_number> Vector;
 
-  static internal::Wide_number weight(const Vector& v) { return v[3] + v[1]; }
-
-  // Stereographic projection from (0, -1, 0), with border vertices on the circle.
   static internal::Wide_vector point(const Vector& v)
   {
     using internal::Wide_number;
     if(!(v[3] > Wide_number(0)))
       return {{ Wide_number(0), Wide_number(0), Wide_number(1) }};
-    const Wide_number size = v[1] == Wide_number(0) ? Wide_number(sqrt(Wide_number(v[2] * v[2] + v[0] * v[0]))) : weight(v);
-    return {{ v[2] / size, v[0] / size, Wide_number(1) }};
+    const std::array<Wide_number, 2> p = internal::disk_point(v);
+    return {{ p[0], p[1], Wide_number(1) }};
   }
 
   void set(internal::Disk_mapping<TriangleMesh, double>& mapping)
   {
-    const Intrinsic_triangulation<double>& t = mapping.mesh.triangulation;
-    const bool is_doubled = mapping.polyhedron.triangulation.number_of_faces() != t.number_of_faces();
     Common_refinement<double> parts = std::move(mapping.refinement);
-    const std::vector<Vector> vectors = internal::refined_vectors(
-      mapping, parts, is_doubled ? internal::Surface_double<double>(t).triangulation : t, [](const Vector& v) { return weight(v); });
     std::vector<internal::Wide_vector> points;
     std::vector<internal::Wide_number> weights;
-    for(const Vector& v : vectors)
+    for(const Vector& v : mapping.refined_vectors)
     {
       points.push_back(point(v));
-      weights.push_back(weight(v));
+      weights.push_back(internal::weight_in_disk(v));
     }
     atlas_ = internal::Projective_atlas<TriangleMesh>(std::move(mapping.mesh));
     internal::set_atlas(atlas_, std::move(parts), std::move(points), std::move(weights), report_);

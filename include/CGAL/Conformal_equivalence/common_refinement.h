@@ -207,11 +207,7 @@ private:
     result_.first_corner.push_back(0);
     overlay.for_each_cell([&](Index flat_face, const std::vector<Overlay_corner>& cell)
     {
-      Index input_face = result_.null_index;
-      for(const Overlay_corner& corner : cell)
-        if(corner.input_halfedge != result_.null_index)
-          input_face = input_.face(corner.input_halfedge);
-      CGAL_assertion(input_face != result_.null_index);
+      const Index input_face = input_face_of_cell(input_, cell);
       if(input_face >= size_.faces)
         return;
       polygon_.clear();

@@ -154,6 +154,27 @@ private:
   Index first_;
 };
 
+// ---- Points of the plane: stereographic projection from (0, -1, 0)
+
+template <typename Wide>
+Wide weight_in_disk(const Light_vector<Wide>& v)
+{
+  return v[3] + v[1];
+}
+
+template <typename Wide>
+std::array<Wide, 2> disk_point(const Light_vector<Wide>& v)
+{
+  using std::sqrt;
+  if(v[1] == Wide(0))
+  {
+    const Wide size = Wide(sqrt(Wide(v[2] * v[2] + v[0] * v[0])));
+    if(size > v[3] * (1 - 1e-20)) // on the circle, and no crossing on the axis: what rounding has done to t does not count
+      return {{ v[2] / size, v[0] / size }};
+  }
+  return {{ v[2] / weight_in_disk(v), v[0] / weight_in_disk(v) }};
+}
+
 // One map to the disk: what the user gets is written by the caller.
 template <typename TriangleMesh, typename NT>
 struct Disk_mapping
@@ -167,6 +188,7 @@ struct Disk_mapping
   std::vector<std::array<NT, 2> > points;      // by vertex of the mesh
   std::vector<Wide> weights;                   // e^{-u} in the disk, the same
   Common_refinement<NT> refinement;            // empty unless asked for
+  std::vector<Light_vector<Wide> > refined_vectors; // by vertex of the refinement
   Flattening_report<TriangleMesh> report;
 
   explicit Disk_mapping(const TriangleMesh& tm) : mesh(tm) {}
@@ -367,21 +389,6 @@ private:
     return normalization.three_points(v, border_points(frame));
   }
 
-  // ---- Points of the plane: stereographic projection from (0, -1, 0)
-
-  static Wide weight_in_disk(const Light_vector<Wide>& v) { return v[3] + v[1]; }
-
-  static Wide_point disk_point(const Light_vector<Wide>& v)
-  {
-    if(v[1] == Wide(0))
-    {
-      const Wide size = square_root(v[2] * v[2] + v[0] * v[0]);
-      if(size > v[3] * (1 - 1e-20)) // on the circle, and no crossing on the axis: what rounding has done to t does not count
-        return {{ v[2] / size, v[0] / size }};
-    }
-    return {{ v[2] / weight_in_disk(v), v[0] / weight_in_disk(v) }};
-  }
-
   static std::vector<Wide_point> wide_points(const Vectors& vectors)
   {
     std::vector<Wide_point> result;
@@ -498,7 +505,7 @@ private:
     const Intrinsic_triangulation<NT>& t = mesh.triangulation;
     const Surface_size size = { t.number_of_vertices(), t.number_of_edges(), t.number_of_faces() };
     Ideal_refinement<NT> overlay = Ideal_refinement_builder<NT>(is_doubled(polyhedron) ? twofold_->triangulation : t, polyhedron, size)(
-      default_maximum_number_of_crossings, weight_in_disk);
+      default_maximum_number_of_crossings, weight_in_disk<Wide>);
     if(!bool(overlay.parts))
     {
       report.status = overlay.parts.status;
@@ -510,6 +517,7 @@ private:
     for(Index v : overlay.parts.corner_vertex)
       overlay.parts.corner_uv.push_back(rounded[v]);
     refinement = triangulate_refinement(overlay.parts);
+    refined_vectors = std::move(overlay.vectors);
     judge_parts(wide);
     for(Index f : bent)
       report.bent_faces.push_back(mesh.face(f));

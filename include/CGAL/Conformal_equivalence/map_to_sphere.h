@@ -78,6 +78,7 @@ struct Sphere_mapping
   Ideal_polyhedron<NT> polyhedron;
   std::vector<std::array<NT, 3> > points;
   Spherical_refinement<NT> refinement; // without faces unless asked for
+  std::vector<Light_vector<Wide> > refined_vectors; // by vertex of the refinement
   Flattening_report<TriangleMesh> report;
 
   explicit Sphere_mapping(const TriangleMesh& tm) : mesh(tm) {}
@@ -270,6 +271,7 @@ private:
     refinement.parts = triangulate_refinement(overlay.parts);
     refinement.parts.corner_uv.clear();
     refinement.points = rounded_points(wide);
+    refined_vectors = std::move(overlay.vectors);
     judge_parts(wide);
     for(Index f : bent)
       report.bent_faces.push_back(mesh.face(f));

@@ -384,7 +384,6 @@ private:
       refused(Status::NOT_QUANTIZABLE, double(sum) * quantum);
       return;
     }
-    Cone_placement<NT> rounded;
     Placement q;
     q.u = std::move(p.u);
     std::vector<std::pair<Index, std::size_t> > kept;

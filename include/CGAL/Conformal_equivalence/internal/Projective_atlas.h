@@ -306,23 +306,7 @@ private:
   // Barycentric coordinates of a corner in the face of the mesh.
   std::array<double, 3> place(std::size_t c) const
   {
-    const Intrinsic_triangulation<double>& t = mesh_.triangulation;
-    const Index f = parts_.input_face[c / 3], v = parts_.corner_vertex[c];
-    std::array<double, 3> result = {{ 0, 0, 0 }};
-    if(v < parts_.number_of_input_vertices)
-    {
-      for(Index k = 0; k < 3; ++k)
-        if(t.origin(3 * f + k) == v)
-          result[k] = 1;
-      return result;
-    }
-    const auto& crossing = parts_.crossings[v - parts_.number_of_input_vertices];
-    const Index h = t.edge_halfedge(crossing.input_edge);
-    const bool is_first = t.face(h) == f;
-    const Index side = is_first ? h : t.twin(h);
-    result[side % 3] = is_first ? 1 - crossing.input_parameter : crossing.input_parameter;
-    result[(side + 1) % 3] = is_first ? crossing.input_parameter : 1 - crossing.input_parameter;
-    return result;
+    return input_barycentric(mesh_.triangulation, parts_, Index(c / 3), c);
   }
 
   void find_parts_of_faces()

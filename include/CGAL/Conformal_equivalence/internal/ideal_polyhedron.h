@@ -93,27 +93,21 @@ struct Punctured_surface
       original_edge[e] = t.edge(3 * original_face[h / 3] + h % 3);
       triangulation.set_length(e, t.length(original_edge[e]));
     }
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      has_all_others_ = has_all_others_ && (v == apex || t.is_isolated_vertex(v) || !triangulation.is_isolated_vertex(v));
   }
 
-  // Is it one disk that has all vertices but one?
-  bool is_disk(Index apex) const
+  // Is it one disk that has all vertices but the apex?
+  bool is_disk() const
   {
-    if(triangulation.number_of_faces() == 0 || !non_manifold_vertices(triangulation).empty())
+    if(triangulation.number_of_faces() == 0 || !has_all_others_ || !non_manifold_vertices(triangulation).empty())
       return false;
     const Surface_components pieces = connected_components(triangulation);
-    if(pieces.components.size() != 1 || !pieces.components[0].is_disk())
-      return false;
-    for(Index v = 0; v < triangulation.number_of_vertices(); ++v)
-      if(v != apex && triangulation.is_isolated_vertex(v) && is_used_[v])
-        return false;
-    return true;
+    return pieces.components.size() == 1 && pieces.components[0].is_disk();
   }
 
-  // Tells which vertices have faces on the whole surface.
-  void set_used(std::vector<char> is_used) { is_used_ = std::move(is_used); }
-
 private:
-  std::vector<char> is_used_;
+  bool has_all_others_ = true; // vertices
 };
 
 // The points, not normalized, as vectors of the light cone with -2 <v_i, v_j> = l_ij^2.
@@ -172,12 +166,7 @@ class Ideal_polyhedron_finder
 
 public:
   // `np`: those of the solver
-  Ideal_polyhedron_finder(const Triangulation& t, const NamedParameters& np) : given_(t), np_(np)
-  {
-    is_used_.resize(t.number_of_vertices());
-    for(Index v = 0; v < t.number_of_vertices(); ++v)
-      is_used_[v] = !t.is_isolated_vertex(v);
-  }
+  Ideal_polyhedron_finder(const Triangulation& t, const NamedParameters& np) : given_(t), np_(np) {}
 
   // On the triangulation as it is.
   Polyhedron on_fixed_triangulation(Index apex, const Symmetry_axis& axis) const
@@ -186,8 +175,8 @@ public:
     result.apex = apex;
     result.triangulation = given_;
     result.unit = typical_spoke(given_, apex);
-    const Punctured_surface<NT> rest = without_star(given_, apex);
-    if(!rest.is_disk(apex))
+    const Punctured_surface<NT> rest(given_, apex);
+    if(!rest.is_disk())
       return refused(std::move(result), Status::SINGULAR_PROBLEM);
     const Metric metric = compute_conformal_metric(rest.triangulation, conditions(result, rest.triangulation),
                                                    Conformal_equivalence::combine_named_parameters(solver_parameters(), parameters::retriangulation(Retriangulation::NEVER)));
@@ -214,8 +203,8 @@ public:
       widen_star(result);
       if(round == 0)
         result.unit = typical_spoke(result.triangulation, apex);
-      const Punctured_surface<NT> rest = without_star(result.triangulation, apex);
-      if(!rest.is_disk(apex))
+      const Punctured_surface<NT> rest(result.triangulation, apex);
+      if(!rest.is_disk())
         return refused(std::move(result), Status::SINGULAR_PROBLEM);
       const Metric metric = solve(rest.triangulation, conditions(result, rest.triangulation), u);
       take_over(metric, result);
@@ -242,13 +231,6 @@ private:
     result.status = status;
     result.vertices.assign(1, result.apex);
     return result;
-  }
-
-  Punctured_surface<NT> without_star(const Triangulation& t, Index apex) const
-  {
-    Punctured_surface<NT> rest(t, apex);
-    rest.set_used(is_used_);
-    return rest;
   }
 
   // Points are to be right relative to the smallest chords; what the user asks for is judged at the end.
@@ -553,7 +535,6 @@ private:
 
   const Triangulation& given_;
   const NamedParameters& np_;
-  std::vector<char> is_used_;
 };
 
 // The vertices that suit best for the apex, the best one first: those with the thickest triangles around them, and around their neighbours. On

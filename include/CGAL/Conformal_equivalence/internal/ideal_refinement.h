@@ -17,8 +17,6 @@
 #include <CGAL/Conformal_equivalence/internal/normal_coordinates.h>
 #include <CGAL/Conformal_equivalence/internal/overlay.h>
 
-#include <CGAL/assertions.h>
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -136,11 +134,7 @@ private:
     parts.first_corner.push_back(0);
     overlay.for_each_cell([&](Index flat_face, const std::vector<Overlay_corner>& cell)
     {
-      Index input_face = parts.null_index;
-      for(const Overlay_corner& corner : cell)
-        if(corner.input_halfedge != parts.null_index)
-          input_face = input_.face(corner.input_halfedge);
-      CGAL_assertion(input_face != parts.null_index);
+      const Index input_face = input_face_of_cell(input_, cell);
       if(input_face >= size_.faces)
         return;
       for(const Overlay_corner& corner : cell)

@@ -451,6 +451,18 @@ private:
   std::vector<Overlay_corner> cell_;
 };
 
+// The input face that a cell is a part of.
+template <typename NT>
+std::uint32_t input_face_of_cell(const Intrinsic_triangulation<NT>& input, const std::vector<Overlay_corner>& cell)
+{
+  std::uint32_t result = input.null_index;
+  for(const Overlay_corner& corner : cell)
+    if(corner.input_halfedge != input.null_index)
+      result = input.face(corner.input_halfedge);
+  CGAL_assertion(result != input.null_index);
+  return result;
+}
+
 } // namespace internal
 } // namespace Conformal_equivalence
 } // namespace CGAL
