@@ -169,7 +169,7 @@ std::array<Wide, 2> disk_point(const Light_vector<Wide>& v)
   if(v[1] == Wide(0))
   {
     const Wide size = Wide(sqrt(Wide(v[2] * v[2] + v[0] * v[0])));
-    if(size > v[3] * (1 - 1e-20)) // on the circle, and no crossing on the axis: what rounding has done to t does not count
+    if(v[3] - size < 1e-20 * v[3]) // on the circle, and no crossing on the axis: what rounding has done to t does not count
       return {{ v[2] / size, v[0] / size }};
   }
   return {{ v[2] / weight_in_disk(v), v[0] / weight_in_disk(v) }};
