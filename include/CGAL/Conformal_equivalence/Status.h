@@ -54,7 +54,8 @@ enum class Status
   NOT_REPRESENTABLE,     ///< the mesh type cannot hold the result: it would have several edges between the same vertices
   TOO_MANY_CONES,        ///< more cones are asked for than there are vertices for them: `amount`
   BOUND_NOT_MET,         ///< the distortion asked for was not reached, but `amount`: what was found is returned nevertheless
-  NOT_QUANTIZABLE        ///< no such multiples of the angle quantum sum up to what the topology asks for: `amount` (radians)
+  NOT_QUANTIZABLE,       ///< no such multiples of the angle quantum sum up to what the topology asks for: `amount` (radians)
+  NOT_SEAMLESS           ///< from one side of the seam at `edges` to the other the surface turns by `amount` (radians): no multiple of the angle quantum
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -75,10 +76,10 @@ struct Status_entry
 
 // The one table of statuses: what they say, and what CGAL's parameterizers call
 // them. In the order of the enumeration.
-inline const std::array<Status_entry, 25>& status_table()
+inline const std::array<Status_entry, 26>& status_table()
 {
   namespace SMP = Surface_mesh_parameterization;
-  static const std::array<Status_entry, 25> table = {{
+  static const std::array<Status_entry, 26> table = {{
     { Status::OK, "success", SMP::OK },
     { Status::CONVERGED_TO_ROUNDING, "converged to the rounding of the number type", SMP::OK },
     { Status::EMPTY_MESH, "the mesh has no face", SMP::ERROR_EMPTY_MESH },
@@ -103,7 +104,8 @@ inline const std::array<Status_entry, 25>& status_table()
     { Status::NOT_REPRESENTABLE, "the mesh cannot hold the result", SMP::ERROR_WRONG_PARAMETER },
     { Status::TOO_MANY_CONES, "there are not enough vertices for the cones", SMP::ERROR_WRONG_PARAMETER },
     { Status::BOUND_NOT_MET, "the bound on the distortion was not met", SMP::ERROR_WRONG_PARAMETER },
-    { Status::NOT_QUANTIZABLE, "the cones cannot have multiples of the angle quantum", SMP::ERROR_WRONG_PARAMETER }
+    { Status::NOT_QUANTIZABLE, "the cones cannot have multiples of the angle quantum", SMP::ERROR_WRONG_PARAMETER },
+    { Status::NOT_SEAMLESS, "the two sides of the seam do not differ by a multiple of the angle quantum", SMP::ERROR_WRONG_PARAMETER }
   }};
   return table;
 }
@@ -241,6 +243,8 @@ struct Cone
   std::size_t vertex_index; ///< position of `vertex` in `vertices(tm)`
   double angle;             ///< its angle sum, in radians: as prescribed, or as found for a free cone
   bool is_free;             ///< whether u was fixed, and the angle found
+  double free_angle = 0;    ///< of a cone that was placed and rounded: its angle sum before, in radians; zero otherwise
+  std::array<std::int64_t, 2> lattice_point = {{0, 0}}; ///< of a seamless layout: where it lies, see `Tiling`
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -252,6 +256,24 @@ struct Seam_transition
   typename boost::graph_traits<TriangleMesh>::halfedge_descriptor halfedge; ///< one side
   std::array<double, 2> rotation;    ///< of absolute value 1
   std::array<double, 2> translation; ///< a point of the plane
+  int quanta = 0;                    ///< of a seamless layout: the rotation, exactly, in multiples of 2 pi / n, from 0 to n - 1
+  std::array<std::int64_t, 2> lattice_translation = {{0, 0}}; ///< of a seamless layout: the translation, exactly, see `Tiling`
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+///
+/// How a seamless layout fits the lattice of a texture. The lattice is Z + Z theta in the complex plane: for n = 2 and 4 the Gaussian integers,
+/// theta = i, and the tiles are unit squares with the integers in their centres; for n = 3 and 6 the Eisenstein integers, theta = e^{i pi / 3}, and the tiles
+/// are regular hexagons about them. A point a + b theta of the lattice is given as the pair of integers (a, b).
+struct Tiling
+{
+  int symmetry = 0;             ///< n: motions across seams turn by multiples of 2 pi / n. Zero: the layout is not seamless
+  double number_of_tiles = 0;   ///< the area of the layout over that of a tile
+  double scale = 0;             ///< by which lengths of the flat metric were multiplied
+  double rotation = 0;          ///< by which the canonical layout was turned (radians)
+  double mean_distortion = 1;   ///< mean quasi-conformal factor of the deformation, from the flat surface to the layout; 1 if none was needed
+  double maximum_distortion = 1; ///< the largest one
+  bool is_closest = true;       ///< whether the positions of the cones are proven to be those of least distortion for scale and rotation
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -293,6 +315,11 @@ struct [[nodiscard]] Flattening_report
   std::vector<Cone<TriangleMesh> > cones;                    ///< in the order of `vertices(tm)`
   std::vector<Seam_transition<TriangleMesh> > transitions;   ///< one for every edge of the seam; none across the borders of charts
   std::vector<Period_lattice<> > lattices;                   ///< of the tori, in the order of their first faces
+
+  Tiling tiling;                                             ///< of a seamless layout
+
+  /// cones that were placed, but became flat when their angles were rounded
+  std::vector<vertex_descriptor> flattened_cones;
 
   /// border edges that were flipped away: with fixed u at both ends these need not be as long as that makes them
   std::vector<edge_descriptor> lost_border_edges;
@@ -358,6 +385,7 @@ inline void print_amount(std::ostream& out, Status status, double amount)
     case Status::TOO_MANY_CONES:
     case Status::BOUND_NOT_MET:         out << ": " << amount; break;
     case Status::NOT_QUANTIZABLE:       out << ": they must sum up to " << amount << " radians"; break;
+    case Status::NOT_SEAMLESS:          out << ": they differ by a rotation by " << amount << " radians"; break;
     default: break;
   }
 }
