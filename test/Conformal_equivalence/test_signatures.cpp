@@ -6,10 +6,9 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-#include "include/rooms_to_come.h"
-
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
+#include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/make_seam_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_equivalence_parameterizer_3.h>

@@ -273,6 +273,8 @@ struct Tiling
   double rotation = 0;          ///< by which the canonical layout was turned (radians)
   double mean_distortion = 1;   ///< mean quasi-conformal factor of the deformation, from the flat surface to the layout; 1 if none was needed
   double maximum_distortion = 1; ///< the largest one
+  double mean_factor_before = 1; ///< mean quasi-conformal factor, from the mesh, of the conformal layout that was deformed
+  double mean_factor = 1;       ///< the same of the result. Means are weighted by the areas of the faces of the mesh
   bool is_closest = true;       ///< whether the positions of the cones are proven to be those of least distortion for scale and rotation
 };
 

@@ -158,7 +158,14 @@ struct Flattening
   template <typename NamedParameters>
   void run(const NamedParameters& np)
   {
-    run_stages(np, [&] { return true; }, [&] { find_cut(np); }, [&] { lay_out(np); }, [&] { verify(); });
+    run_with_metric(np, [&] { find_metric(np, [] { return true; }); }, [&] { verify(); });
+  }
+
+  // The same, where `find_the_metric()` reads the conditions and solves, by `find_metric()` or `take()`, and `verify_it()` judges the layout.
+  template <typename NamedParameters, typename Find_metric, typename Verify>
+  void run_with_metric(const NamedParameters& np, Find_metric find_the_metric, Verify verify_it)
+  {
+    run_stages(np, find_the_metric, [&] { find_cut(np); }, [&] { lay_out(np); }, verify_it);
   }
 
   // The same with the common refinement, on which the verdict is then. Without flips the mesh is its own refinement, and none is made
@@ -172,7 +179,7 @@ struct Flattening
       if(metric.is_retriangulated() || is_always_made)
         refine(np);
     };
-    run_stages(np, [&] { return true; }, [&] { find_cut(np); }, lay_out_twice, [&] { verify_refinement(); });
+    run_stages(np, [&] { find_metric(np, [] { return true; }); }, [&] { find_cut(np); }, lay_out_twice, [&] { verify_refinement(); });
   }
 
   // Names the triangles with parts that are not exactly positive, as rounded.
@@ -193,12 +200,33 @@ struct Flattening
   void run_along(Cut_graph given_cut, Index face, Status no_disk, const NamedParameters& np)
   {
     cut = std::move(given_cut);
-    run_stages(np, [&] { return check_cut(face, no_disk); }, [] {}, [&] { lay_out_piece(face, np); }, [&] { verify(); });
+    run_stages(np, [&] { find_metric(np, [&] { return check_cut(face, no_disk); }); }, [] {}, [&] { lay_out_piece(face, np); },
+               [&] { verify(); });
   }
 
+  // Reads the conditions, and solves if `check()` has nothing against them.
+  template <typename NamedParameters, typename Check>
+  void find_metric(const NamedParameters& np, Check check)
+  {
+    if(read(np) && check())
+      solve(np);
+  }
+
+  // The metric, found with these conditions.
+  void take(Conformal_metric<NT> found, Conformal_conditions<NT> conditions)
+  {
+    conditions_ = std::move(conditions);
+    cones_ = interior_cones(mesh.triangulation, conditions_);
+    metric = std::move(found);
+    report_metric();
+  }
+
+  const Conformal_conditions<NT>& conditions() const { return conditions_; }
+  const std::vector<Index>& cones() const { return cones_; }
+
 private:
-  template <typename NamedParameters, typename Check, typename Find_cut, typename Lay_out, typename Verify>
-  void run_stages(const NamedParameters& np, Check check, Find_cut find_the_cut, Lay_out lay_it_out, Verify verify_it)
+  template <typename NamedParameters, typename Find_metric, typename Find_cut, typename Lay_out, typename Verify>
+  void run_stages(const NamedParameters& np, Find_metric find_the_metric, Find_cut find_the_cut, Lay_out lay_it_out, Verify verify_it)
   {
     using parameters::choose_parameter;
     using parameters::get_parameter;
@@ -208,8 +236,8 @@ private:
     try
     {
       timed(seconds.import, Stage::IMPORT, visitor, [&] { import_lengths(np); });
-      if(bool(report) && read(np) && check())
-        solve(np);
+      if(bool(report))
+        find_the_metric();
       if(bool(report))
         timed(seconds.cut, Stage::CUT, visitor, find_the_cut);
       if(bool(report))
@@ -262,7 +290,11 @@ private:
     }
     if(!metric.is_retriangulated())
       mesh.triangulation = metric.triangulation; // copied only now: the solver has freed its memory
+    report_metric();
+  }
 
+  void report_metric()
+  {
     const Statistics::Seconds seconds = report.statistics.seconds;
     report.statistics = metric.statistics;
     report.statistics.seconds.import = seconds.import;

@@ -255,7 +255,12 @@ public:
   // factorizes A + diag(shift)
   bool factor(const Edge_graph& graph, const std::vector<double>& w, const Vertex_vector& shift)
   {
-    Eigen::SparseMatrix<double> lower = assemble_lower(graph, w, shift);
+    return factor(assemble_lower(graph, w, shift));
+  }
+
+  // factorizes the symmetric matrix of which `lower` is the lower half
+  bool factor(Eigen::SparseMatrix<double> lower)
+  {
     typename SolverTraits::NT denominator;
     if constexpr(Has_pattern_analysis<SolverTraits>::value)
     {
@@ -283,16 +288,29 @@ public:
   // x = A^-1 b on the free vertices, with the matrix last factorized
   bool solve(const Edge_graph& graph, const Vertex_vector& b, Vertex_vector& x)
   {
-    Vector right(graph.number_of_free), solution(graph.number_of_free);
+    std::vector<double> free(graph.number_of_free);
     for(std::size_t v = 0; v < b.size(); ++v)
       if(graph.is_free(std::uint32_t(v)))
-        right[graph.free_index[v]] = b[v];
-    if(!traits_.linear_solver(right, solution))
+        free[graph.free_index[v]] = b[v];
+    if(!solve(free))
       return false;
     x.assign(b.size(), 0.);
     for(std::size_t v = 0; v < b.size(); ++v)
       if(graph.is_free(std::uint32_t(v)))
-        x[v] = solution[graph.free_index[v]];
+        x[v] = free[graph.free_index[v]];
+    return true;
+  }
+
+  // replaces b by A^-1 b
+  bool solve(std::vector<double>& b)
+  {
+    Vector right(int(b.size())), solution(int(b.size()));
+    for(std::size_t i = 0; i < b.size(); ++i)
+      right[int(i)] = b[i];
+    if(!traits_.linear_solver(right, solution))
+      return false;
+    for(std::size_t i = 0; i < b.size(); ++i)
+      b[i] = solution[int(i)];
     return true;
   }
 

@@ -1,0 +1,339 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file compute_seamless_parameterization.h
+/// Seamless textures (section 6 of Springborn, Schroeder and Pinkall, 2008): cones with multiples of 2 pi / n are moved to the points of a
+/// lattice, so that a pattern with the symmetries of the lattice covers the surface without a visible seam.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_COMPUTE_SEAMLESS_PARAMETERIZATION_H
+#define CGAL_CONFORMAL_EQUIVALENCE_COMPUTE_SEAMLESS_PARAMETERIZATION_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/rectification.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/place_cones.h>
+
+#include <CGAL/number_utils.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+namespace internal {
+
+// One seamless parameterization: the metric with its cones, its layout, and the layout rectified.
+template <typename TriangleMesh, typename NamedParameters>
+class Seamless_parameterization
+{
+  typedef std::uint32_t Index;
+  typedef typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t, NamedParameters,
+                                                       Default_solver_traits>::type Solver_traits;
+  template <typename Tag>
+  using Is_absent = parameters::is_default_parameter<NamedParameters, Tag>;
+
+  // Cones place themselves unless they, or the angles of borders, are given.
+  static constexpr bool is_automatic = Is_absent<internal_np::conformal_cone_angle_t>::value
+                                    && Is_absent<internal_np::conformal_border_angle_t>::value
+                                    && !(Is_absent<internal_np::conformal_number_of_cones_t>::value
+                                         && Is_absent<internal_np::conformal_maximum_u_t>::value
+                                         && Is_absent<internal_np::conformal_maximum_area_distortion_t>::value);
+
+public:
+  Flattening<TriangleMesh> flattening;
+
+  Seamless_parameterization(const TriangleMesh& tm, const NamedParameters& np) : flattening(import_charts(tm, np)), np_(np) {}
+
+  void operator()()
+  {
+    Flattening_report<TriangleMesh>& report = flattening.report;
+    flattening.run_with_metric(np_, [&]
+    {
+      if(check())
+        find_metric();
+    }, [] {}); // what is judged is the layout that is rectified
+    if(!bool(report))
+      return;
+    tell_what_was_placed();
+    const Stopwatch rectifying;
+    try
+    {
+      rectify();
+    }
+    catch(const std::bad_alloc&)
+    {
+      report.status = Status::OUT_OF_MEMORY;
+    }
+    report.statistics.seconds.layout += rectifying.seconds();
+    if(bool(report) && placement_.status == Status::BOUND_NOT_MET)
+    {
+      report.status = placement_.status;
+      report.amount = placement_.amount;
+    }
+  }
+
+private:
+  // ---- What can be asked for
+
+  double quantum() const
+  {
+    return parameters::choose_parameter(parameters::get_parameter(np_, internal_np::conformal_angle_quantum), CGAL_PI / 2);
+  }
+
+  // n of the quantum 2 pi / n; 0 if there is no such lattice
+  int symmetry() const
+  {
+    const double n = 2 * CGAL_PI / quantum(), nearest = std::round(n);
+    return std::abs(n - nearest) < 1e-6 && nearest < 10 && Texture_lattice::exists(long(nearest)) ? int(nearest) : 0;
+  }
+
+  bool check()
+  {
+    Flattening_report<TriangleMesh>& report = flattening.report;
+    if(report.topology.number_of_components != 1)
+      report.status = Status::WRONG_TOPOLOGY;
+    else if(symmetry() == 0)
+    {
+      report.status = Status::ANGLE_OUT_OF_RANGE;
+      report.amount = quantum();
+    }
+    return bool(report);
+  }
+
+  // ---- Metric
+
+  void find_metric()
+  {
+    if constexpr(is_automatic)
+      place();
+    else
+      flattening.find_metric(np_, [&] { return check_cones(); });
+  }
+
+  void place()
+  {
+    const Intrinsic_triangulation<double>& t = flattening.mesh.triangulation;
+    placement_ = place_cones(t, Conformal_equivalence::combine_named_parameters(np_, parameters::angle_quantum(quantum())));
+    Conformal_conditions<double> conditions(t);
+    Conformal_metric<double> metric = std::move(placement_.metric);
+    if(bool(placement_) || placement_.status == Status::BOUND_NOT_MET)
+      for(std::size_t i = 0; i < placement_.cones.size(); ++i)
+        conditions.prescribe_angle_sum(placement_.cones[i], placement_.angles[i]);
+    else
+    {
+      metric.status = placement_.status;
+      metric.amount = placement_.amount;
+    }
+    flattening.take(std::move(metric), std::move(conditions));
+  }
+
+  // The cones given must have multiples of the quantum; those of free angle have none that is known.
+  bool check_cones()
+  {
+    std::vector<Index> wrong;
+    for(Index v : flattening.cones())
+      if(flattening.conditions().is_fixed(v) || !is_multiple(flattening.conditions().angle_sum(v)))
+        wrong.push_back(v);
+    if(wrong.empty())
+      return true;
+    Flattening_report<TriangleMesh>& report = flattening.report;
+    report.status = Status::ANGLE_OUT_OF_RANGE;
+    const Index v = wrong.front();
+    report.amount = flattening.conditions().is_fixed(v) ? 0 : flattening.conditions().angle_sum(v).template radians<double>();
+    name_elements(flattening.mesh, wrong, {}, {}, report);
+    return false;
+  }
+
+  bool is_multiple(const Exact_angle<double>& angle) const
+  {
+    return angle.is_exact() && angle.units % (2 * Exact_angle<double>::units_of_pi / symmetry()) == 0;
+  }
+
+  void tell_what_was_placed()
+  {
+    Flattening_report<TriangleMesh>& report = flattening.report;
+    for(std::size_t i = 0; i < placement_.free_angles.size() && i < report.cones.size(); ++i)
+      report.cones[i].free_angle = placement_.free_angles[i];
+    for(Index v : placement_.flattened)
+      report.flattened_cones.push_back(flattening.mesh.vertex(v));
+  }
+
+  // ---- Rectification
+
+  std::vector<Quantized_cone> quantized_cones() const
+  {
+    const long unit = 2 * Exact_angle<double>::units_of_pi / symmetry();
+    std::vector<Quantized_cone> result;
+    for(Index v : flattening.cones())
+      result.push_back({v, flattening.conditions().angle_sum(v).units / unit});
+    return result;
+  }
+
+  Rectification_options options() const
+  {
+    using parameters::choose_parameter;
+    using parameters::get_parameter;
+    Rectification_options result;
+    result.number_of_tiles = double(choose_parameter(get_parameter(np_, internal_np::conformal_number_of_tiles), std::size_t(0)));
+    result.maximum_distortion = choose_parameter(get_parameter(np_, internal_np::conformal_maximum_distortion), result.maximum_distortion);
+    result.is_lattice_coordinates = choose_parameter(get_parameter(np_, internal_np::conformal_seamless_coordinates),
+                                                     Seamless_coordinates::CARTESIAN) == Seamless_coordinates::LATTICE;
+    return result;
+  }
+
+  void rectify()
+  {
+    Flattening_report<TriangleMesh>& report = flattening.report;
+    const std::vector<Quantized_cone> cones = quantized_cones();
+    typedef Rectification<Solver_traits> Rectification;
+    Rectification rectified(flattening.mesh.triangulation, flattening.cut, flattening.layout, cones, Texture_lattice(symmetry()), options(),
+                            parameters::choose_parameter<Solver_traits>(parameters::get_parameter(np_, internal_np::sparse_linear_solver)));
+    if(rectified.status != Status::OK)
+    {
+      report.status = rectified.status;
+      report.amount = rectified.amount;
+      name_elements(flattening.mesh, {}, rectified.edges, rectified.faces, report);
+      if(rectified.status != Status::BOUND_NOT_MET)
+        return;
+    }
+    report.tiling = rectified.tiling;
+    for(std::size_t i = 0; i < report.cones.size(); ++i)
+      report.cones[i].lattice_point = rectified.cone_positions[i];
+    for(std::size_t i = 0; i < report.transitions.size(); ++i)
+    {
+      const Transition<double>& exact = rectified.layout.transitions[i];
+      report.transitions[i].rotation = exact.rotation;
+      report.transitions[i].translation = exact.translation;
+      report.transitions[i].quanta = rectified.quanta[i];
+      report.transitions[i].lattice_translation = rectified.translations[i];
+    }
+    report.lattices.clear();
+    flattening.layout = std::move(rectified.layout);
+  }
+
+  const NamedParameters& np_;
+  Cone_placement<double> placement_;
+};
+
+} // namespace internal
+
+/// \ingroup PkgConformalEquivalenceDoors
+///
+/// makes a seamless parameterization of a disk or sphere: a layout with cones at points of a lattice, in which the two sides of every seam edge differ by
+/// a symmetry of the lattice. A checkerboard pattern, or any other texture with the symmetries of the lattice, then covers the surface without a
+/// visible seam; so do the tiles of a quadrangulation.
+///
+///  - *Cones* have multiples of the `angle_quantum` 2 pi / n for their angle sums. They place themselves, see `place_cones()`, or are given.
+///  - The conformally equivalent flat metric is laid out, as by `flatten()`. The motions across the seam are rotations by multiples of 2 pi / n, with some
+///    translations; the cones lie where they happen to.
+///  - *Rectification*: of all positions of the cones in the lattice, and translations that go with them, those are chosen which take the least conformal energy to
+///    deform the layout to. They are found among lattice points by enumeration (proven to be the closest ones for scale and rotation if `Tiling::is_closest`; up
+///    to about 30 cones), else by rounding to nearest planes. Scale and rotation follow from `number_of_tiles` or `maximum_distortion`.
+///  - The layout with these positions is the one of least conformal energy (the *generalized Laplace layout*). It is no longer conformally equivalent to the
+///    mesh exactly; `Tiling` has the figures. If nothing has to be deformed, as with at most two cones on a disk or three on a sphere, it still is.
+///
+/// With n = 2 and 4 seams are exact in the numbers written: for every seam edge a motion z -> i^k z + a + b i with integers a and b takes the coordinates of one
+/// side to those of the other, without any rounding. With n = 3 and 6 this holds for `Seamless_coordinates::LATTICE`. All triangles are positive, decided exactly
+/// on the numbers written.
+///
+/// Handles, and all borders but one, can be gone around; the surface then must turn by a multiple of 2 pi / n, as around a border with prescribed angles whose sum makes it
+/// so, or on a flat torus. Otherwise the status is `NOT_SEAMLESS`.
+///
+/// \tparam TriangleMesh a model of `FaceListGraph`
+/// \tparam HalfedgeUVMap as in `flatten()`
+/// \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
+///
+/// \param tm a triangle mesh of one component
+/// \param uv receives, at every halfedge `h`, where `target(h, tm)` lies in the triangle of `face(h, tm)`, in units of the lattice, see `Tiling`
+/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{number_of_cones, maximum_log_scale_factor, maximum_area_distortion, cone_measure, number_of_sweeps}
+///     \cgalParamDescription{as in `place_cones()`. If none of the first three is given, the cones are those of `cone_angle_map`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{cone_angle_map}
+///     \cgalParamDescription{the angle sums of the inner vertices, if cones are not to place themselves: multiples of the quantum}
+///     \cgalParamType{as in `read_conditions()`}
+///     \cgalParamDefault{no cones, unless they place themselves}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{border_angle_map, vertex_is_constrained_map, prescribed_log_scale_factor_map}
+///     \cgalParamDescription{as in `read_conditions()`. With border angles cones do not place themselves}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{angle_quantum}
+///     \cgalParamDescription{2 pi / n (radians), n = 2, 3, 4 or 6}
+///     \cgalParamType{`double`}
+///     \cgalParamDefault{`CGAL_PI / 2`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{number_of_tiles}
+///     \cgalParamDescription{the area of the layout, about: of the nearby sizes and all rotations those with the least distortion are taken. If triangles are inverted by the deformation, there will be twice as many, or more}
+///     \cgalParamType{`std::size_t`}
+///     \cgalParamDefault{as few as `maximum_distortion` allows}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{maximum_distortion}
+///     \cgalParamDescription{a bound on the mean quasi-conformal factor of the deformation, if there is no `number_of_tiles`}
+///     \cgalParamType{`double`}
+///     \cgalParamDefault{`1.02`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{seamless_coordinates}
+///     \cgalParamDescription{those in which the layout is written}
+///     \cgalParamType{`Seamless_coordinates`}
+///     \cgalParamDefault{`Seamless_coordinates::CARTESIAN`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{vertex_point_map, edge_length_map, mollification, edge_is_seam_map, edge_is_constrained_map, seam_weight_map}
+///     \cgalParamDescription{as in `flatten()`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{log_scale_factor_map, scaled_edge_length_map}
+///     \cgalParamDescription{as in `flatten()`: of the flat metric before it is deformed}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, newton_strategy, retriangulation, border_edges, sparse_linear_solver, visitor}
+///     \cgalParamDescription{as in `flatten()`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{flattening_report}
+///     \cgalParamDescription{receives a copy of what is returned}
+///     \cgalParamType{`std::reference_wrapper<Flattening_report<TriangleMesh> >`}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
+///
+/// \return the report, with the cones and their lattice points, exact transitions, and the `Tiling`. Maps are written iff it is a success, or `BOUND_NOT_MET`: then of the best that
+///         was found. Statuses: those of `place_cones()` and `flatten()`; `WRONG_TOPOLOGY` (several components); `ANGLE_OUT_OF_RANGE` (no lattice has this quantum, or vertices: cones
+///         with other angles, or free ones); `NOT_SEAMLESS` (edges; cones are reported all the same); `NOT_INJECTIVE` (faces: inverted on every grid that
+///         was tried); `SINGULAR_PROBLEM`.
+///
+/// Time: that of `place_cones()` and `flatten()`, the factorization of a matrix of twice the size, a solution with it for each cone, and a search
+/// among lattice points that is bounded.
+///
+/// \sa `CGAL::Conformal_equivalence::place_cones()`
+/// \sa `CGAL::Conformal_equivalence::flatten()`
+template <typename TriangleMesh, typename HalfedgeUVMap, typename NamedParameters = parameters::Default_named_parameters>
+Flattening_report<TriangleMesh> compute_seamless_parameterization(const TriangleMesh& tm,
+                                                                  HalfedgeUVMap uv,
+                                                                  const NamedParameters& np = parameters::default_values())
+{
+  internal::Seamless_parameterization<TriangleMesh, NamedParameters> seamless(tm, np);
+  seamless();
+  const Flattening_report<TriangleMesh>& report = seamless.flattening.report;
+  if(bool(report) || report.status == Status::BOUND_NOT_MET)
+  {
+    internal::write_corners(seamless.flattening.mesh, seamless.flattening.layout, uv);
+    internal::write_metric(seamless.flattening, np);
+    internal::write_seam(seamless.flattening, np);
+  }
+  internal::write_report(report, np);
+  return report;
+}
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_COMPUTE_SEAMLESS_PARAMETERIZATION_H
