@@ -340,6 +340,7 @@ private:
   struct Candidate
   {
     std::vector<Lattice_point> coefficients;
+    Complex s;          // what was aimed at
     double cost;
     bool is_closest;
   };
@@ -395,19 +396,19 @@ private:
       const std::vector<Lattice_vector> vectors = is_enumerated ? reduced.near(target, 2, most_nodes)
                                                                 : std::vector<Lattice_vector>(1, reduced.babai(target));
       for(std::size_t i = 0; i < vectors.size(); ++i)
-        add_candidate(vectors[i], size, i == 0 && vectors[i].is_closest, result);
+        add_candidate(vectors[i], s, i == 0 && vectors[i].is_closest, result);
     }
     std::stable_sort(result.begin(), result.end(), [](const Candidate& c, const Candidate& d) { return c.cost < d.cost; });
     return result;
   }
 
-  void add_candidate(const Lattice_vector& v, double size, bool is_closest, std::vector<Candidate>& result) const
+  void add_candidate(const Lattice_vector& v, const Complex& s, bool is_closest, std::vector<Candidate>& result) const
   {
     Candidate c;
-    for(std::size_t j = 0; j < v.coefficients.size(); j += 2)
-      c.coefficients.push_back({{v.coefficients[j], v.coefficients[j + 1]}});
+    c.coefficients = lattice_points(v);
+    c.s = s;
     const Coefficients x = complex_coefficients(c.coefficients);
-    const double scale = std::abs(scale_of(x)) / size;
+    const double scale = std::abs(scale_of(x)) / std::abs(s);
     if(!(scale > 0.7 && scale < 1.43)) // far from the number of tiles, or all in one point
       return;
     c.cost = relative_energy(x) + weight_of_scale * (scale - 1) * (scale - 1);
@@ -419,6 +420,29 @@ private:
         return;
       }
     result.push_back(std::move(c));
+  }
+
+  static std::vector<Lattice_point> lattice_points(const Lattice_vector& v)
+  {
+    std::vector<Lattice_point> result;
+    for(std::size_t j = 0; j + 1 < v.coefficients.size(); j += 2)
+      result.push_back({{v.coefficients[j], v.coefficients[j + 1]}});
+    return result;
+  }
+
+  // Looks longer than before for a vector closer to what was aimed at than the one that was taken; most often proves that there is none.
+  void prove(const Reduced_lattice& reduced, Candidate c)
+  {
+    if(c.is_closest || reduced.dimension() > most_enumerated_dimensions)
+      return;
+    const Lattice_vector v = reduced.closest(real_coefficients(c.s * flat_coefficients_), most_nodes_of_proof);
+    const bool is_same = lattice_points(v) == c.coefficients;
+    c.coefficients = lattice_points(v);
+    c.is_closest = v.is_closest;
+    if(is_same)
+      tiling.is_closest = v.is_closest;
+    else if(!c.coefficients.empty())
+      try_candidate(c); // what is there is kept if this one inverts triangles
   }
 
   void deform()
@@ -444,7 +468,7 @@ private:
       const std::vector<Candidate> c = candidates(reduced, std::ldexp(options_.number_of_tiles, finer));
       for(std::size_t i = 0; i < c.size() && i < most_tried; ++i)
         if(try_candidate(c[i]))
-          return;
+          return prove(reduced, c[i]);
     }
     refuse_inverted();
   }
@@ -454,7 +478,6 @@ private:
   {
     const std::size_t most_tried = 2;
     const double most_tiles = 1e9;
-    Layout<double> best;
     bool is_found = false;
     for(double tiles = 1; tiles < most_tiles; tiles *= std::sqrt(2.))
     {
@@ -466,7 +489,9 @@ private:
         if(!try_candidate(c[i]))
           continue;
         is_found = true;
-        if(tiling.mean_distortion <= (std::max)(options_.maximum_distortion, 1 + 1e-9))
+        if(is_within_bound())
+          prove(reduced, c[i]);
+        if(is_within_bound())
           return;
       }
     }
@@ -475,6 +500,8 @@ private:
     status = Status::BOUND_NOT_MET;
     amount = tiling.mean_distortion;
   }
+
+  bool is_within_bound() const { return tiling.mean_distortion <= (std::max)(options_.maximum_distortion, 1 + 1e-9); }
 
   // From the root of the mean square of |f_zbar / f_z|: not below the mean.
   double expected_distortion(const Coefficients& x) const
@@ -599,9 +626,12 @@ private:
     for(int rings = 0; rings <= most_rings; ++rings)
     {
       std::vector<Lattice_coordinates<double> > relaxed = z;
-      Relaxation(t_, polygon_, motion, is_fixed, inverted_, rings)(relaxed);
-      if(lay_out(motion, relaxed, result))
+      const Relaxation relaxation(t_, polygon_, lattice_, motion, is_fixed, inverted_, rings);
+      for(int centred = 0; centred < 3; ++centred)
       {
+        centred == 0 ? relaxation.average(relaxed) : relaxation.centre(relaxed);
+        if(!lay_out(motion, relaxed, result))
+          continue;
         z = std::move(relaxed);
         return true;
       }
@@ -768,7 +798,7 @@ private:
 
   static constexpr double weight_of_scale = 1. / 256;
   static constexpr int most_rings = 6;
-  static constexpr std::size_t most_enumerated_dimensions = 60, most_nodes = 20000;
+  static constexpr std::size_t most_enumerated_dimensions = 60, most_nodes = 20000, most_nodes_of_proof = 10000000;
 
   const Triangulation& t_;
   const Cut_graph& cut_;
