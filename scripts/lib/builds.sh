@@ -107,7 +107,7 @@ all_headers_everywhere()
 }
 
 # The tests that are worth most with sanitizers.
-sanitized_core=(test_{normal_coordinates,common_refinement,Surface_locator,retriangulation,flatten_retriangulated,flatten_any_topology,compute_cut_graph,repair_locally,map_to_sphere,map_to_disk,Surface_correspondence,place_cones,fuzz_flatten_mesh})
+sanitized_core=(test_{normal_coordinates,common_refinement,Surface_locator,retriangulation,flatten_retriangulated,flatten_any_topology,compute_cut_graph,repair_locally,map_to_sphere,map_to_disk,Surface_correspondence,place_cones,compute_seamless_parameterization,fuzz_flatten_mesh})
 
 # sanitized_tests TESTS OPTION...: the tests named in one word, or, if it is empty, all that are not slow, with address and
 # undefined-behaviour sanitizers

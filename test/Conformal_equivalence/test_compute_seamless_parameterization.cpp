@@ -870,6 +870,20 @@ BOOST_AUTO_TEST_CASE(results_do_not_depend_on_the_unit_of_length)
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_given_solver_finds_the_same)
+{
+  const auto one = result(arms(2)), other = result(arms(2));
+  const auto np = params::number_of_cones(6).number_of_tiles(300);
+  (*one)(np);
+  (*other)(np.sparse_linear_solver(CE::Default_solver_traits()));
+  check_whole(*one, 4);
+  check_whole(*other, 4);
+  std::size_t n_different = 0;
+  for(Halfedge h : one->sm.halfedges())
+    n_different += one->uv[h] != other->uv[h] ? 1 : 0;
+  BOOST_TEST(n_different == 0u);
+}
+
 // Where edges are flipped, straight triangles may be inverted before anything is deformed.
 BOOST_AUTO_TEST_CASE(inverted_straight_triangles_are_mended)
 {

@@ -137,6 +137,22 @@ BOOST_AUTO_TEST_CASE(sums_that_positive_integers_cannot_have_are_refused)
 
 // ---- The search
 
+// A solver that is given is copied, and copies may share one factor.
+BOOST_AUTO_TEST_CASE(a_given_solver_finds_the_same)
+{
+  for(const Soup& soup : {arms(2), bumps(16)})
+  {
+    const Triangulation t = triangulation(soup);
+    const auto np = params::number_of_cones(4).angle_quantum(pi / 2);
+    const auto expected = CE::place_cones(t, params::number_of_cones(4).angle_quantum(pi / 2).sparse_linear_solver(CE::Default_solver_traits()));
+    const auto placement = CE::place_cones(t, np);
+    BOOST_TEST_REQUIRE(bool(placement));
+    BOOST_TEST_REQUIRE(bool(expected));
+    BOOST_TEST((placement.cones == expected.cones));
+    BOOST_TEST((placement.metric.log_scale_factors == expected.metric.log_scale_factors));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(free_cones_have_u_zero_and_all_other_angles_are_flat)
 {
   for(const Soup& soup : {bumps(16), arms(3), torus(20, 12)})
@@ -201,7 +217,7 @@ BOOST_AUTO_TEST_CASE(moves_are_foreseen_to_first_order)
       if(!is_free)
         p.angles = {2 * pi - height * height, 2 * pi + 2 * height * height};
       BOOST_REQUIRE(search.relax(p, 60, 1e-13));
-      const double expected = search.measure_if_moved(p, 1, search.curvature(p, 1), search.candidates()[120]);
+      const double expected = search.moved(p, 1, search.curvatures(p)[1], search.candidates()[120]).measure;
       Placement moved = p;
       moved.cones[1] = search.candidates()[120];
       BOOST_REQUIRE(search.relax(moved, 60, 1e-13));
@@ -211,6 +227,75 @@ BOOST_AUTO_TEST_CASE(moves_are_foreseen_to_first_order)
     BOOST_TEST(error[0] < 0.2);
     BOOST_TEST(error[1] < 0.4 * error[0]); // curvature is of second order in the height: a quarter, asymptotically
   }
+}
+
+// The same where everything is known that was guessed: what is foreseen from a few rows is what comes out if u is computed.
+BOOST_AUTO_TEST_CASE(moves_are_foreseen_as_they_are_computed_to_first_order)
+{
+  const Soup hill = grid(14, [](double x, double y) { return 0.05 * std::sin(5 * x + 1) * std::cos(4 * y) + 0.02 * std::sin(11 * x * y); });
+  Soup ring = torus(20, 12), ball = icosphere(3);
+  add_noise(ring, 0.004, 3);
+  add_noise(ball, 0.004, 3);
+  for(const Soup& soup : {hill, ring, ball})
+    for(const CE::Cone_measure measure : {CE::Cone_measure::MAXIMUM_U, CE::Cone_measure::DIRICHLET_ENERGY})
+      for(const std::size_t n_cones : {1u, 3u, 8u})
+        for(const bool is_free : {true, false})
+        {
+          const Triangulation t = triangulation(soup);
+          const bool is_sphere = only_component(t).euler_characteristic() > 0 && only_component(t).number_of_borders == 0;
+          if(is_sphere && n_cones < 8)
+            continue; // u would change by more than can be foreseen
+          Search search(t, only_component(t), CE::Default_solver_traits(), measure);
+          BOOST_REQUIRE(search.factorize());
+          Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
+          for(std::size_t i = 0; i < n_cones; ++i)
+            Search::add(p, search.candidates()[(2 * i + 1) * search.candidates().size() / (2 * n_cones)]);
+          BOOST_REQUIRE(search.relax(p, 300, 1e-12, false));
+          if(!is_free)
+            for(double curvature : search.curvatures(p))
+              p.angles.push_back(2 * pi - curvature);
+          BOOST_REQUIRE(search.relax(p, 300, 1e-12, false));
+          search.watch(p);
+          const CE::internal::Cone_move move = search.best_move(p, 3, {});
+          BOOST_REQUIRE(move.to < t.number_of_vertices());
+          const Placement moved = search.moved(p, move.cone, move.curvature, move.to);
+          if(measure == CE::Cone_measure::MAXIMUM_U && is_free)
+            for(Index c : moved.cones)
+              BOOST_TEST(std::abs(moved.u[c]) < 1e-9);
+          search.watch(moved);
+          std::set<std::pair<Index, Index> > others;
+          for(Index c : p.cones)
+            for(Index v : search.candidates())
+              if(c != p.cones[move.cone] || v != move.to)
+                others.insert({c, v});
+          const CE::internal::Cone_move again = search.best_move(p, 3, others);
+          BOOST_REQUIRE(again.to == move.to);
+          BOOST_TEST(std::abs(again.expected - moved.measure) < 1e-9 * (1 + moved.measure));
+          if(n_cones > 1)
+            BOOST_TEST(std::abs(moved.measure - p.measure) > 1e-6 * p.measure); // it is a move
+        }
+}
+
+BOOST_AUTO_TEST_CASE(the_vertex_with_the_largest_u_is_found_whatever_u_is)
+{
+  const Triangulation t = triangulation(bumps(6));
+  Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::MAXIMUM_U);
+  Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
+  BOOST_TEST(p.measure == 0);
+  const std::vector<Index>& inner = search.candidates();
+  BOOST_TEST(search.worst_vertex(p) == inner[0]); // of equals the first
+  p.u[inner[3]] = -2;
+  p.u[inner[5]] = 2;
+  BOOST_TEST(search.worst_vertex(p) == inner[3]);
+  Search::add(p, inner[3]);
+  BOOST_TEST(search.worst_vertex(p) == inner[5]);
+  p.u[inner[7]] = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(search.worst_vertex(p) == inner[7]);
+  search.judge(p);
+  BOOST_TEST(!(p.measure < 1e300)); // never the better one
+  p.cones = inner;
+  BOOST_TEST(search.worst_vertex(p) == t.null_index);
+  BOOST_TEST(!search.put_cone(p));
 }
 
 // ---- Placements
@@ -262,6 +347,116 @@ BOOST_AUTO_TEST_CASE(a_bound_is_met_or_the_best_is_returned)
   BOOST_TEST(missed.cones.size() == 2);
   BOOST_TEST(missed.amount == missed.maximum_log_scale_factor);
   BOOST_TEST(missed.amount > before / 100);
+}
+
+// The areas of the triangles, computed otherwise: by Heron's formula from scaled lengths.
+BOOST_AUTO_TEST_CASE(a_bound_on_areas_is_met_or_the_best_is_returned)
+{
+  const auto distortion = [](const Triangulation& t, const std::vector<double>& u)
+  {
+    const auto areas = [&](double factor)
+    {
+      std::vector<double> result;
+      for(Index f = 0; f < t.number_of_faces(); ++f)
+      {
+        std::array<double, 3> l;
+        for(Index k = 0; k < 3; ++k)
+        {
+          const Index h = 3 * f + k;
+          l[k] = t.length(t.edge(h)) * std::exp(factor * (u[t.origin(h)] + u[t.target(h)]) / 2);
+        }
+        const double s = (l[0] + l[1] + l[2]) / 2;
+        result.push_back(std::sqrt(s * (s - l[0]) * (s - l[1]) * (s - l[2])));
+      }
+      return result;
+    };
+    const std::vector<double> before = areas(0), after = areas(1);
+    const double mean = std::accumulate(after.begin(), after.end(), 0.) / std::accumulate(before.begin(), before.end(), 0.);
+    double largest = 1;
+    for(std::size_t f = 0; f < before.size(); ++f)
+    {
+      const double a = after[f] / before[f] / mean;
+      largest = (std::max)(largest, (std::max)(a, 1 / a));
+    }
+    return largest;
+  };
+  const Triangulation t = triangulation(bumps(24));
+  const double before = distortion(t, CE::compute_conformal_metric(t, CE::Conformal_conditions<double>(t)).log_scale_factors);
+  const auto met = CE::place_cones(t, params::maximum_area_distortion(0.7 * before));
+  BOOST_REQUIRE(bool(met));
+  BOOST_TEST(!met.metric.is_retriangulated());
+  BOOST_TEST(met.area_distortion <= 0.7 * before);
+  BOOST_TEST(std::abs(met.area_distortion - distortion(t, met.metric.log_scale_factors)) < 1e-9 * before);
+  BOOST_TEST(met.cones.size() >= 1);
+  const auto none = CE::place_cones(t, params::maximum_area_distortion(before * 1.01));
+  BOOST_TEST(bool(none));
+  BOOST_TEST(none.cones.empty());
+  const auto missed = CE::place_cones(t, params::maximum_area_distortion(1.001).number_of_cones(std::size_t(2)));
+  BOOST_TEST((missed.status == CE::Status::BOUND_NOT_MET));
+  BOOST_TEST(missed.cones.size() == 2);
+  BOOST_TEST(missed.amount == missed.area_distortion);
+  BOOST_TEST(missed.amount > 1.001);
+
+  // of two bounds that are not met, |u| is named; one that is met is not
+  const auto both = CE::place_cones(t, params::maximum_area_distortion(1.001).maximum_log_scale_factor(1e-3).number_of_cones(std::size_t(2)));
+  BOOST_TEST(both.amount == both.maximum_log_scale_factor);
+  const auto one = CE::place_cones(t, params::maximum_area_distortion(1.001).maximum_log_scale_factor(10.).number_of_cones(std::size_t(2)));
+  BOOST_TEST(one.amount == one.area_distortion);
+
+  // lengths far from 1
+  Soup small = bumps(24);
+  for(Point& p : small.points)
+    for(double& x : p)
+      x *= std::ldexp(1., -450);
+  BOOST_TEST(std::abs(CE::place_cones(triangulation(small), params::number_of_cones(std::size_t(2))).area_distortion - missed.area_distortion) < 1e-6);
+}
+
+// Where edges are flipped, no triangle of the metric is one of the surface.
+BOOST_AUTO_TEST_CASE(areas_of_flipped_metrics_are_judged_at_vertices)
+{
+  const Triangulation t = triangulation(arms(2));
+  const auto placement = CE::place_cones(t, params::number_of_cones(std::size_t(4)).retriangulation(CE::Retriangulation::ALWAYS));
+  BOOST_REQUIRE(bool(placement));
+  BOOST_REQUIRE(placement.metric.is_retriangulated());
+  const auto extremes = std::minmax_element(placement.metric.log_scale_factors.begin(), placement.metric.log_scale_factors.end());
+  const double range = *extremes.second - *extremes.first;
+  BOOST_TEST(std::log(placement.area_distortion) >= range * (1 - 1e-12)); // the mean is in the middle
+  BOOST_TEST(std::log(placement.area_distortion) <= 2 * range);           // or at one end
+}
+
+// A flat surface has nothing to gain: cones are anywhere, and none.
+BOOST_AUTO_TEST_CASE(cones_of_flat_surfaces_have_the_angle_2_pi)
+{
+  const Triangulation t = triangulation(flat_grid(8));
+  const auto placement = CE::place_cones(t, params::number_of_cones(std::size_t(3)));
+  BOOST_REQUIRE(bool(placement));
+  BOOST_TEST(placement.cones.size() == 3);
+  for(double angle : placement.free_angles)
+    BOOST_TEST(std::abs(angle - 2 * pi) < 1e-12);
+  BOOST_TEST(placement.maximum_log_scale_factor < 1e-12);
+  BOOST_TEST(std::abs(placement.area_distortion - 1) < 1e-12);
+  const auto rounded = CE::place_cones(t, params::number_of_cones(std::size_t(3)).angle_quantum(pi / 2));
+  BOOST_REQUIRE(bool(rounded));
+  BOOST_TEST(rounded.cones.empty());
+  BOOST_TEST(rounded.flattened.size() == 3);
+  BOOST_TEST(bool(CE::place_cones(t, params::maximum_area_distortion(1.0001))));
+}
+
+// What is asked of the factor grows with the cones, not with the places that they could have.
+BOOST_AUTO_TEST_CASE(few_systems_are_solved)
+{
+  for(const Index n : {16u, 32u})
+  {
+    const Triangulation t = triangulation(bumps(n));
+    for(const std::size_t n_cones : {2u, 6u})
+    {
+      const auto placement = CE::place_cones(t, params::number_of_cones(n_cones).angle_quantum(pi / 2));
+      BOOST_REQUIRE(bool(placement));
+      BOOST_TEST(placement.number_of_solves > n_cones);
+      BOOST_TEST(placement.number_of_solves <= 60 + 15 * n_cones);
+      BOOST_TEST(placement.metric.statistics.number_of_iterations <= 4); // the search was near
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(quantized_angles_are_multiples_and_satisfy_gauss_and_bonnet_exactly)
@@ -326,6 +521,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused)
   const Soup disk = bumps(6), sphere = icosphere(1);
   const std::size_t one = 1, two = 2, three = 3, many = 100000;
   BOOST_TEST((status(disk, params::number_of_sweeps(two)) == Status::MISSING_CONDITION)); // neither number nor bound
+  BOOST_TEST((status(disk, params::maximum_area_distortion(0.).maximum_log_scale_factor(0.)) == Status::MISSING_CONDITION)); // no bounds
+  BOOST_TEST((status(disk, params::maximum_area_distortion(100.)) == Status::OK));
   BOOST_TEST((status(sphere, params::number_of_cones(one)) == Status::MISSING_CONDITION));
   BOOST_TEST((status(sphere, params::number_of_cones(two)) == Status::MISSING_CONDITION));
   BOOST_TEST((status(sphere, params::number_of_cones(three)) == Status::OK));
@@ -349,6 +546,20 @@ BOOST_AUTO_TEST_CASE(a_mesh_is_flattened_with_the_angles_written)
   const auto report = CE::place_cones(mesh, angle, params::number_of_cones(std::size_t(6)).angle_quantum(pi / 2).log_scale_factor_map(u));
   BOOST_REQUIRE(bool(report));
   BOOST_TEST(!report.cones.empty());
+  BOOST_TEST(report.cones.size() + report.flattened_cones.size() == 6);
+  double free_curvature = 0;
+  for(const auto& cone : report.cones)
+  {
+    BOOST_TEST(cone.vertex_index == cone.vertex.idx());
+    BOOST_TEST(cone.angle == angle[cone.vertex]);
+    BOOST_TEST(!cone.is_free);
+    BOOST_TEST(std::abs(cone.free_angle - cone.angle) < pi); // (by more than a quarter of a turn only where the sum asks for it)
+    free_curvature += 2 * pi - cone.free_angle;
+  }
+  for(Vertex v : report.flattened_cones)
+    BOOST_TEST(angle[v] == 2 * pi);
+  if(report.flattened_cones.empty())
+    BOOST_TEST(std::abs(free_curvature - 4 * pi) < 1e-4);
   double curvature = 0, most = 0;
   for(Vertex v : vertices(mesh))
   {

@@ -5,6 +5,7 @@
 // says about seams, cones and pieces of the same layouts.
 
 #define BOOST_TEST_MODULE test_write_SVG
+#include "include/check_seams.h"
 #include "include/flattened_meshes.h"
 
 #include <CGAL/Conformal_equivalence/IO/write_HTML.h>
@@ -14,7 +15,7 @@
 
 #include <boost/property_map/property_map.hpp>
 
-
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -466,7 +467,143 @@ BOOST_AUTO_TEST_CASE(neighbouring_paths_have_different_colors)
   }
   for(const auto& entry : colors)
     BOOST_TEST(entry.second.size() == 6u);
+  BOOST_TEST(number_of_colors(seams) == seams.size()); // 432 of them
   BOOST_TEST(drawn_cones(svg).empty());
+}
+
+// Points that fill a square evenly are about 1 / sqrt(n) apart; here that is some part of the 255 steps of a channel.
+BOOST_AUTO_TEST_CASE(colors_are_told_apart)
+{
+  const auto distance = [](const CE::internal::RGB& a, const CE::internal::RGB& b)
+    { return std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]); };
+  for(const std::size_t n : {17, 40, 100})
+    for(std::size_t i = 0; i < n; ++i)
+      for(std::size_t j = 0; j < i; ++j)
+        BOOST_TEST(distance(CE::internal::distinct_color(i), CE::internal::distinct_color(j)) > 60 / std::sqrt(double(n)));
+}
+
+// ------------------------------------------------------------------------------------------------
+// Tiles of seamless layouts
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+std::string tiles_path(const std::string& svg)
+{
+  const std::size_t begin = svg.find("<path id=\"tiles\"");
+  return begin == std::string::npos ? "" : attribute(svg, "d", begin);
+}
+
+// The layout of a unit square with its lower left corner at (x, y), `side` wide.
+std::string drawing_of_square(double x, double y, double side, int tiles, double size)
+{
+  const Unfolded surface = unfolded_quads({{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}}}, {{{0, 1, 2, 3}}},
+    {{{Point_2(x, y), Point_2(x + side, y), Point_2(x + side, y + side), Point_2(x, y + side)}}});
+  CE::IO::SVG_options options;
+  options.checkerboard = false;
+  options.tiles = tiles;
+  options.size = size;
+  return drawing(surface.mesh, surface.uv, options);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(squares_have_integers_in_their_centres)
+{
+  for(int n : {2, 4})
+  {
+    // [-3.2, 6.8]^2, a unit is one of the drawing: in hundredths x lies at 100 (x + 3.2), y at 100 (6.8 - y)
+    const std::string svg = drawing_of_square(-3.2, -3.2, 10, n, 10);
+    const std::vector<Polyline> lines = read_path(tiles_path(svg));
+    std::set<double> x, y;
+    for(const Polyline& line : lines)
+    {
+      BOOST_TEST_REQUIRE(line.size() == 2u);
+      const bool is_vertical = line[0].first == line[1].first;
+      BOOST_TEST((is_vertical || line[0].second == line[1].second));
+      BOOST_TEST(lengths(line)[0] == 1000.);
+      if(is_vertical)
+        x.insert(line[0].first);
+      else
+        y.insert(line[0].second);
+    }
+    std::set<double> expected_x, expected_y;
+    for(int k = -3; k <= 6; ++k)
+    {
+      expected_x.insert(std::round(100 * (k + .5 + 3.2)));
+      expected_y.insert(std::round(100 * (6.8 - k - .5)));
+    }
+    BOOST_TEST(x == expected_x, boost::test_tools::per_element());
+    BOOST_TEST(y == expected_y, boost::test_tools::per_element());
+    BOOST_TEST(lines.size() == 20u);
+    BOOST_TEST(svg.find("id=\"triangles\"") < svg.find("id=\"tiles\""));
+    BOOST_TEST(svg.find("id=\"tiles\"") < svg.find("id=\"edges\""));
+  }
+  for(int n : {0, 1, 5, -4})
+    BOOST_TEST(tiles_path(drawing_of_square(-3.2, -3.2, 10, n, 10)).empty());
+}
+
+// Where there are very many, squares of an odd number of tiles.
+BOOST_AUTO_TEST_CASE(the_number_of_lines_is_bounded)
+{
+  for(const double side : {490., 600., 5e4, 1e7})
+  {
+    const std::vector<Polyline> lines = read_path(tiles_path(drawing_of_square(.25, .25, side, 4, 1e6)));
+    BOOST_TEST(lines.size() <= 1002u);
+    BOOST_TEST(lines.size() >= 300u);
+    std::vector<double> x;
+    for(const Polyline& line : lines)
+      if(line[0].first == line[1].first)
+        x.push_back(line[0].first * side / 1e8 + .25);
+    std::sort(x.begin(), x.end());
+    BOOST_TEST_REQUIRE(x.size() > 1u);
+    const double tiles = (x.back() - x.front()) / double(x.size() - 1);
+    BOOST_TEST(std::abs(tiles - std::round(tiles)) < 1e-6 * tiles);
+    BOOST_TEST(std::fmod(std::round(tiles), 2) == 1);
+    BOOST_TEST(std::abs(x.front() / tiles - std::round(x.front() / tiles - .5) - .5) < 1e-6 + 1e-6 * side / tiles);
+  }
+  BOOST_TEST(read_path(tiles_path(drawing_of_square(.25, .25, 1e14, 4, 1000))).size() <= 1002u);
+  for(const double side : {1e16, 1e300})
+    BOOST_TEST(tiles_path(drawing_of_square(.25, .25, side, 4, 1000)).empty());
+  BOOST_TEST(tiles_path(drawing_of_square(1e16, 1e16, 1e3, 4, 1000)).empty()); // the integers are not to be told apart there
+  BOOST_TEST(tiles_path(drawing_of_square(0, 0, 1e3, 6, 1000)).empty());
+  BOOST_TEST(tiles_path(drawing_of_square(0, 0, 1e300, 3, 1000)).empty());
+}
+
+// All edges are 1 / sqrt(3) long; the corners are as far from the nearest points of the lattice, three of them each.
+BOOST_AUTO_TEST_CASE(hexagons_have_points_of_the_lattice_in_their_centres)
+{
+  for(int n : {3, 6})
+  {
+    const double scale = 1e4; // hundredths in a unit
+    const std::vector<Polyline> lines = read_path(tiles_path(drawing_of_square(-3.2, -2.1, 10, n, 1000)));
+    BOOST_TEST(lines.size() > 110u); // 100 / area of a hexagon, and those at the rim
+    BOOST_TEST(lines.size() < 170u);
+    std::set<std::pair<int, int> > corners; // seen in the inner part
+    for(const Polyline& line : lines)
+    {
+      BOOST_TEST_REQUIRE(line.size() == 4u);
+      for(double l : lengths(line))
+        BOOST_TEST(std::abs(l / scale - 1 / std::sqrt(3.)) < 1e-3);
+      for(const Dot& dot : line)
+      {
+        const double x = dot.first / scale - 3.2, y = 10 - 2.1 - dot.second / scale;
+        int nearest = 0;
+        for(int b = -9; b <= 12; ++b)
+          for(int a = -12; a <= 18; ++a)
+          {
+            const double d = std::hypot(a + b / 2. - x, b * std::sqrt(.75) - y) - 1 / std::sqrt(3.);
+            BOOST_TEST_REQUIRE(d > -1e-3);
+            nearest += d < 1e-3;
+          }
+        BOOST_TEST(nearest == 3);
+        if(x > -2 && x < 6 && y > -1 && y < 7)
+          corners.insert({int(std::round(x * 10)), int(std::round(y * 10))});
+      }
+    }
+    // two corners for each hexagon, of area sqrt(3) / 2, within 8 by 8
+    BOOST_TEST(std::abs(double(corners.size()) - 2 * 64 / std::sqrt(.75)) < 20);
+  }
 }
 
 // Coordinates rounded to single precision, far from the origin, are no cones.
@@ -741,4 +878,174 @@ BOOST_AUTO_TEST_CASE(checker_and_pieces)
     BOOST_TEST(! verdict.is_good());
     BOOST_TEST(verdict.overlapping_pieces == 1u);
   }
+}
+
+// ------------------------------------------------------------------------------------------------
+// The checker of seams, bit for bit
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+checking::Seam_verdict judge_seams(const Unfolded& surface, int symmetry)
+{
+  const checking::Seam_verdict verdict = checking::check_seams(testing::surface_of(surface.mesh),
+    testing::layout_of(surface.mesh, [&](Halfedge h) { return surface.uv[h]; }), symmetry);
+  BOOST_TEST_MESSAGE(verdict);
+  return verdict;
+}
+
+// Every place of the layout moved.
+template <typename Map>
+Unfolded moved(const Unfolded& surface, const Map& map)
+{
+  Unfolded result;
+  result.mesh = surface.mesh;
+  result.uv = result.mesh.add_property_map<Halfedge, Point_2>("h:moved").first;
+  for(Halfedge h : result.mesh.halfedges())
+    result.uv[h] = map(surface.uv[h]);
+  return result;
+}
+
+Unfolded shifted(const Unfolded& surface, double x, double y)
+{
+  return moved(surface, [=](const Point_2& p) { return Point_2(p.x() + x, p.y() + y); });
+}
+
+// The octahedron in the coordinates of the lattice of hexagons: four pieces that differ by rotations by 60 degrees; or, if each is turned
+// by 60 degrees more than the one before, by multiples of 120.
+Unfolded octahedron_in_lattice(bool is_turned)
+{
+  Unfolded result = octahedron();
+  const double s = std::sqrt(2.), t = std::sqrt(1.5);
+  for(Face f : result.mesh.faces())
+    for(Halfedge h : CGAL::halfedges_around_face(result.mesh.halfedge(f), result.mesh))
+    {
+      double b = std::round(result.uv[h].y() / t), a = std::round(result.uv[h].x() / s - b / 2);
+      for(Index k = is_turned ? Index(f) / 2 : 0; k > 0; --k)
+      {
+        const double sum = a + b;
+        a = -b;
+        b = sum;
+      }
+      result.uv[h] = Point_2(a, b);
+    }
+  return result;
+}
+
+// A corner on a seam, and its coordinate x moved to the next number.
+Unfolded with_one_bit_changed(const Unfolded& surface, std::size_t n)
+{
+  Unfolded result = shifted(surface, 0, 0);
+  for(Halfedge h : result.mesh.halfedges())
+    if(! result.mesh.is_border(result.mesh.edge(h)) && CE::internal::is_outline(result.mesh, surface.uv, h) && n-- == 0)
+    {
+      const Point_2 p = surface.uv[h];
+      for(Halfedge g : CGAL::halfedges_around_target(h, result.mesh)) // all corners at this place
+        if(surface.uv[g] == p)
+          result.uv[g] = Point_2(std::nextafter(p.x(), HUGE_VAL), p.y());
+      break;
+    }
+  return result;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(seams_of_a_cube)
+{
+  const checking::Seam_verdict verdict = judge_seams(cube(), 4);
+  BOOST_TEST(verdict.is_good(), verdict);
+  BOOST_TEST(verdict.seam_edges == 7u);
+  BOOST_TEST(verdict.paths == 7u);
+  BOOST_TEST(verdict.cones == 8u);
+  BOOST_TEST(judge_seams(shifted(cube(), -3, 1e6), 4).is_good());
+
+  BOOST_TEST(judge_seams(cube(), 2).edges_without_motion > 0u); // there are right angles
+  BOOST_TEST(judge_seams(cube(), 2).wrong_angles == 8u);
+  BOOST_TEST(judge_seams(cube(), 6).is_good()); // of rhombi, in coordinates of the other lattice
+  BOOST_TEST(! judge_seams(cube(), 3).is_good());
+  BOOST_CHECK_THROW(judge_seams(cube(), 5), std::runtime_error);
+  BOOST_CHECK_THROW(judge_seams(cube(), 0), std::runtime_error);
+
+  // cones in the corners of tiles: rotations about them by 90 degrees still take integers to integers, but they lie beside the lattice
+  const checking::Seam_verdict corners = judge_seams(shifted(cube(), .5, .5), 4);
+  BOOST_TEST(corners.edges_without_motion == 0u);
+  BOOST_TEST(corners.cones_off_lattice == 8u);
+  BOOST_TEST(! corners.is_good());
+  // on the sides of tiles: translations are half-integers
+  BOOST_TEST(judge_seams(shifted(cube(), .5, 0), 4).edges_without_motion > 0u);
+  // other sizes of tiles
+  BOOST_TEST(judge_seams(moved(cube(), [](const Point_2& p) { return Point_2(3 * p.x(), 3 * p.y()); }), 4).is_good());
+  BOOST_TEST(! judge_seams(moved(cube(), [](const Point_2& p) { return Point_2(p.x() / 2, p.y() / 2); }), 4).is_good());
+  BOOST_TEST(! judge_seams(moved(cube(), [](const Point_2& p) { return Point_2(2 * p.x(), p.y()); }), 4).is_good());
+}
+
+BOOST_AUTO_TEST_CASE(every_bit_counts)
+{
+  const auto check = [](const Unfolded& surface, int symmetry)
+  {
+    BOOST_TEST(judge_seams(surface, symmetry).is_good());
+    for(std::size_t n = 0; n < 8; ++n)
+    {
+      const checking::Seam_verdict verdict = judge_seams(with_one_bit_changed(surface, n), symmetry);
+      BOOST_TEST(! verdict.is_good());
+      BOOST_TEST(verdict.edges_without_motion > 0u);
+    }
+  };
+  check(cube(), 4);
+  for(int n : {2, 3, 4, 6})
+    check(torus(5, 5), n);
+  check(ring(6, 4), 4);
+  check(octahedron_in_lattice(false), 6);
+  check(octahedron_in_lattice(true), 3);
+}
+
+BOOST_AUTO_TEST_CASE(seams_of_a_torus)
+{
+  const checking::Seam_verdict verdict = judge_seams(torus(5, 5), 4);
+  BOOST_TEST(verdict.is_good());
+  BOOST_TEST(verdict.seam_edges == 10u);
+  BOOST_TEST(verdict.cones == 0u);
+  BOOST_TEST(verdict.paths == 2u);
+  const auto scaled = [](double factor) { return moved(torus(5, 5), [=](const Point_2& p) { return Point_2(factor * p.x(), factor * p.y()); }); };
+  BOOST_TEST(judge_seams(scaled(.2), 4).is_good()); // one tile
+  BOOST_TEST(judge_seams(scaled(2), 4).is_good());
+  BOOST_TEST(judge_seams(scaled(.3), 4).edges_without_motion == 10u);
+  BOOST_TEST(judge_seams(scaled(.5), 4).edges_without_motion == 10u); // translations by 2.5
+  BOOST_TEST(judge_seams(shifted(torus(5, 5), .25, 1. / 1024), 4).is_good()); // without cones any place will do, if it is exact
+
+  // a vertex inside drawn where it flips triangles: there is nothing wrong with the seams
+  Unfolded flipped = torus(5, 5);
+  for(Halfedge h : flipped.mesh.halfedges())
+    if(flipped.uv[h] == Point_2(2, 2))
+      flipped.uv[h] = Point_2(4, 2);
+  BOOST_TEST(judge_seams(flipped, 4).edges_without_motion == 0u);
+  BOOST_TEST(judge_seams(flipped, 4).not_positive_triangles > 0u);
+  BOOST_TEST(! judge_seams(flipped, 4).is_good());
+  // and moved a little: still a seamless layout
+  Unfolded bent = torus(5, 5);
+  for(Halfedge h : bent.mesh.halfedges())
+    if(bent.uv[h] == Point_2(2, 2))
+      bent.uv[h] = Point_2(2.1, 1.9);
+  BOOST_TEST(judge_seams(bent, 4).is_good());
+
+  for(double bad : {HUGE_VAL, std::numeric_limits<double>::quiet_NaN()})
+    BOOST_TEST(! judge_seams(shifted(torus(5, 5), bad, 0), 4).is_good());
+}
+
+BOOST_AUTO_TEST_CASE(seams_of_an_octahedron)
+{
+  for(int n : {3, 6})
+  {
+    const Unfolded surface = octahedron_in_lattice(n == 3);
+    const checking::Seam_verdict verdict = judge_seams(surface, n);
+    BOOST_TEST(verdict.is_good(), verdict);
+    BOOST_TEST(verdict.cones == 6u);
+    BOOST_TEST(verdict.paths == 8u);
+    BOOST_TEST(! judge_seams(octahedron(), n).is_good()); // in Cartesian coordinates
+    BOOST_TEST(! judge_seams(shifted(surface, 1. / 3, 1. / 3), n).is_good());
+    BOOST_TEST(judge_seams(shifted(surface, 7, -2), n).is_good());
+  }
+  BOOST_TEST(judge_seams(octahedron_in_lattice(true), 6).is_good());
+  BOOST_TEST(judge_seams(octahedron_in_lattice(false), 3).edges_without_motion == 8u);
+  BOOST_TEST(! judge_seams(octahedron_in_lattice(false), 4).is_good());
 }

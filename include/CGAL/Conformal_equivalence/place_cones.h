@@ -17,8 +17,10 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
-#include <CGAL/Conformal_equivalence/internal/cone_search.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/cone_search.h>
+#include <CGAL/Conformal_equivalence/internal/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/number_utils.h>
@@ -33,6 +35,7 @@
 #include <limits>
 #include <new>
 #include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -50,11 +53,15 @@ struct Cone_placement
 
   std::vector<Index> cones;                ///< in ascending order
   std::vector<Exact_angle<NT> > angles;    ///< by cone: the angle sum, exactly if it was rounded to a multiple
-  std::vector<double> free_angles;         ///< by cone: what it was before it was rounded, when all cones were free (radians)
+  std::vector<double> free_angles;         ///< by cone: what it was before it was rounded, when all cones were free (radians, up to 1e-6)
   std::vector<Index> flattened;            ///< cones whose angles were rounded to 2 pi: they are none any more
 
   Conformal_metric<NT> metric;             ///< with these angle sums, and u = 0 on borders
   double maximum_log_scale_factor = 0;     ///< the largest |u| of `metric`
+
+  /// the largest factor, or its inverse, by which `metric` scales areas relative to the total area: of its triangles; where edges were flipped, of the
+  /// surroundings of vertices, e^{2u}. 1 if there is no metric
+  double area_distortion = 1;
   std::size_t number_of_sweeps = 0;        ///< of the concurrent optimization
   std::size_t number_of_moves = 0;         ///< of single cones to vertices nearby that made it better
   std::size_t number_of_solves = 0;        ///< linear systems solved with the one factor
@@ -72,6 +79,7 @@ struct Cone_options
 {
   std::size_t number_of_cones = 0; // 0: not given
   double maximum_u = 0;            // 0: not given
+  double maximum_area_distortion = 0; // 0: not given
   double angle_quantum = 0;        // 0: none
   Cone_measure measure = Cone_measure::MAXIMUM_U;
   std::size_t number_of_sweeps = 10;
@@ -99,19 +107,25 @@ public:
     if(!check_number(search))
       return std::move(result_);
     if(!search.factorize())
-      return refused(Status::SINGULAR_PROBLEM);
-    Placement p = search.without_cones(first_u());
+    {
+      refuse(Status::SINGULAR_PROBLEM);
+      return std::move(result_);
+    }
+    Placement p = search.without_cones(Vertex_vector(t_.number_of_vertices(), 0.));
+    if(!search.relax(p, 20) || p.error > 1e-2)
+      p = search.without_cones(first_u());
     place_greedily(search, p);
     p = optimized(search, std::move(p));
-    p = moved(search, std::move(p));
+    p = moved(search, p);
     std::sort(p.cones.begin(), p.cones.end());
     result_.cones = p.cones;
-    solve();
-    if(is_success(result_.metric.status))
+    if(options_.angle_quantum > 0)
+      quantize(search, std::move(p));
+    else
     {
-      take_angles();
-      if(options_.angle_quantum > 0)
-        quantize(search, std::move(p));
+      solve(p);
+      if(is_success(result_.metric.status))
+        take_angles(free_angles());
     }
     result_.number_of_solves = search.number_of_solves();
     finish();
@@ -121,16 +135,20 @@ public:
 private:
   static constexpr std::size_t most_cones_for_bound = 256;
 
+  // Copies of solver traits may share one factor (those of Eigen_solver_traits do). The factor of the search must not be replaced by those of the
+  // metrics that are solved for meanwhile.
   Solver_traits traits() const
   {
-    return parameters::choose_parameter<Solver_traits>(parameters::get_parameter(np_, internal_np::sparse_linear_solver));
+    if constexpr(std::is_default_constructible<Solver_traits>::value)
+      return Solver_traits();
+    else
+      return parameters::get_parameter(np_, internal_np::sparse_linear_solver);
   }
 
-  Cone_placement<NT> refused(Status status, double amount = 0)
+  void refuse(Status status, double amount = 0)
   {
     result_.status = status;
     result_.amount = amount;
-    return std::move(result_);
   }
 
   // ---- What can be asked for
@@ -141,11 +159,12 @@ private:
       result_.status = Status::EMPTY_MESH;
     else if(pieces_.components.size() != 1)
       result_.status = Status::WRONG_TOPOLOGY;
-    else if(options_.number_of_cones == 0 && !(options_.maximum_u > 0))
+    else if(options_.number_of_cones == 0 && !has_bound())
       result_.status = Status::MISSING_CONDITION;
     return result_.status == Status::OK;
   }
 
+  bool has_bound() const { return options_.maximum_u > 0 || options_.maximum_area_distortion > 0; }
   bool is_sphere() const { return number_of_borders() == 0 && pieces_.components[0].euler_characteristic() > 0; }
   std::size_t number_of_borders() const { return pieces_.components[0].number_of_borders; }
 
@@ -153,11 +172,11 @@ private:
   {
     const std::size_t n = search.candidates().size();
     if(options_.number_of_cones > n || (is_sphere() && n < 3))
-      refused(Status::TOO_MANY_CONES, double(n));
+      refuse(Status::TOO_MANY_CONES, double(n));
     else if(is_sphere() && options_.number_of_cones > 0 && options_.number_of_cones < 3)
-      refused(Status::MISSING_CONDITION, 4 * Number_constants<double>::pi());
+      refuse(Status::MISSING_CONDITION, 4 * Number_constants<double>::pi());
     else if(options_.angle_quantum > 0 && quanta_of_turn() == 0)
-      refused(Status::ANGLE_OUT_OF_RANGE, options_.angle_quantum);
+      refuse(Status::ANGLE_OUT_OF_RANGE, options_.angle_quantum);
     else
       return true;
     return false;
@@ -194,8 +213,8 @@ private:
     return u;
   }
 
-  // With the cones of the result: free, or with the angles given.
-  void solve(const std::vector<Exact_angle<NT> >& angles = std::vector<Exact_angle<NT> >())
+  // With the cones of the result: free, or with the angles given. Begins with what the search has found, if it has found something.
+  void solve(const Placement& p, const std::vector<Exact_angle<NT> >& angles = std::vector<Exact_angle<NT> >())
   {
     Conformal_conditions<NT> conditions = natural_conditions();
     for(std::size_t i = 0; i < result_.cones.size(); ++i)
@@ -205,7 +224,10 @@ private:
       else
         conditions.prescribe_angle_sum(result_.cones[i], angles[i]);
     }
-    result_.metric = compute_conformal_metric(t_, conditions, np_);
+    const Vertex_vector u = p.error <= 0.1 ? p.u : Vertex_vector(p.u.size(), 0.);
+    const auto initial_u = boost::make_iterator_property_map(u.begin(), boost::typed_identity_property_map<Index>());
+    result_.metric = compute_conformal_metric(t_, conditions, Conformal_equivalence::combine_named_parameters(
+      np_, parameters::initial_log_scale_factor_map(initial_u)));
     measure();
   }
 
@@ -214,19 +236,96 @@ private:
     result_.maximum_log_scale_factor = 0;
     for(const NT& u : result_.metric.log_scale_factors)
       result_.maximum_log_scale_factor = (std::max)(result_.maximum_log_scale_factor, std::abs(static_cast<double>(u)));
+    if(is_success(result_.metric.status))
+      result_.area_distortion = result_.metric.is_retriangulated() ? area_distortion_at_vertices() : area_distortion_of_faces();
   }
 
-  // As found, with free cones.
-  void take_angles()
+  // ---- Areas
+
+  std::vector<double> log_areas() const
   {
+    std::vector<double> result;
+    for(Index h = 0; h < t_.number_of_halfedges(); h += 3)
+      result.push_back(log_area(Incircle_form<NT>(t_.length(t_.edge(h)), t_.length(t_.edge(h + 1)), t_.length(t_.edge(h + 2)))));
+    return result;
+  }
+
+  // of the triangles of the metric found
+  std::vector<double> scaled_log_areas() const
+  {
+    const Conformal_metric<NT>& m = result_.metric;
+    std::vector<double> result;
+    for(Index f = 0; f < m.triangulation.number_of_faces(); ++f)
+      result.push_back(log_area(wide_triangle(m.triangulation, m.scale_factors, f)));
+    return result;
+  }
+
+  double area_distortion_of_faces() const
+  {
+    const std::vector<double> before = log_areas(), after = scaled_log_areas();
+    return area_distortion(before, after, log_sum(before), log_sum(after));
+  }
+
+  // Where edges were flipped no triangle of the metric is one of the surface given. Near a vertex the metric is that of the surface, times e^{2u}.
+  double area_distortion_at_vertices() const
+  {
+    std::vector<double> before, after;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      if(!t_.is_isolated_vertex(v))
+      {
+        before.push_back(0);
+        after.push_back(2 * static_cast<double>(result_.metric.log_scale_factors[v]));
+      }
+    const double number_of_copies = result_.metric.is_doubled ? 2 : 1;
+    return area_distortion(before, after, log_sum(log_areas()), log_sum(scaled_log_areas()) - std::log(number_of_copies));
+  }
+
+  // The same for triangles scaled by these u, in `double`.
+  double area_distortion_at(const Vertex_vector& u) const
+  {
+    const auto length = [&](Index h) { return std::exp((u[t_.origin(h)] + u[t_.target(h)]) / 2) * static_cast<double>(t_.length(t_.edge(h))); };
+    const std::vector<double> before = log_areas();
+    std::vector<double> after;
+    for(Index h = 0; h < t_.number_of_halfedges(); h += 3)
+      after.push_back(log_area(Incircle_form<double>(length(h), length(h + 1), length(h + 2))));
+    return area_distortion(before, after, log_sum(before), log_sum(after));
+  }
+
+  // ---- Angles of free cones
+
+  std::vector<double> free_angles() const
+  {
+    std::vector<double> result;
     for(Index c : result_.cones)
+      result.push_back(angle_sum_at(result_.metric, c));
+    return result;
+  }
+
+  void take_angles(const std::vector<double>& angles)
+  {
+    result_.free_angles = angles;
+    for(double angle : angles)
     {
-      const double angle = angle_sum_at(result_.metric, c);
-      result_.free_angles.push_back(angle);
       Exact_angle<NT> exact;
       exact.rest = NT(angle);
       result_.angles.push_back(exact);
     }
+  }
+
+  // Before they are rounded: from the search, or, where that finds no metric, from the metric with free cones. Returns whether there are any.
+  bool find_free_angles(Search& search, Placement& p)
+  {
+    const double close = 1e-6;
+    if(search.relax(p, 30, close) && p.error <= close)
+    {
+      for(double curvature : search.curvatures(p))
+        result_.free_angles.push_back(search.flat_angle(p) - curvature);
+      return true;
+    }
+    solve(p);
+    if(is_success(result_.metric.status))
+      result_.free_angles = free_angles();
+    return is_success(result_.metric.status);
   }
 
   void finish()
@@ -235,11 +334,12 @@ private:
       return;
     result_.status = result_.metric.status;
     result_.amount = result_.metric.amount;
-    if(is_success(result_.status) && options_.maximum_u > 0 && result_.maximum_log_scale_factor > options_.maximum_u)
-    {
-      result_.status = Status::BOUND_NOT_MET;
-      result_.amount = result_.maximum_log_scale_factor;
-    }
+    if(!is_success(result_.status))
+      return;
+    if(options_.maximum_u > 0 && !(result_.maximum_log_scale_factor <= options_.maximum_u))
+      refuse(Status::BOUND_NOT_MET, result_.maximum_log_scale_factor);
+    else if(options_.maximum_area_distortion > 0 && !(result_.area_distortion <= options_.maximum_area_distortion))
+      refuse(Status::BOUND_NOT_MET, result_.area_distortion);
   }
 
   // ---- Placement
@@ -250,12 +350,8 @@ private:
       return false;
     if(options_.number_of_cones > 0 && p.cones.size() >= options_.number_of_cones)
       return true;
-    if(!(options_.maximum_u > 0))
-      return false;
-    double largest = 0;
-    for(double u : p.u)
-      largest = (std::max)(largest, std::abs(u));
-    return largest <= options_.maximum_u;
+    return has_bound() && (!(options_.maximum_u > 0) || largest_entry(p.u) <= options_.maximum_u)
+                       && (!(options_.maximum_area_distortion > 0) || area_distortion_at(p.u) <= options_.maximum_area_distortion);
   }
 
   // A cone where |u| is largest, again and again.
@@ -265,7 +361,8 @@ private:
     while(!is_enough(p) && p.cones.size() < (std::min)(search.candidates().size(), options_.number_of_cones > 0 ? options_.number_of_cones
                                                                                                                 : most_cones_for_bound))
     {
-      Search::add(p, search.worst_vertex(p));
+      if(!search.put_cone(p))
+        return;
       search.relax(p, steps);
     }
   }
@@ -281,13 +378,12 @@ private:
       const std::vector<Index> before = sorted(p.cones);
       for(std::size_t i = 0; i < before.size(); ++i)
       {
-        Search::remove(p, 0); // the cone that has been there longest
-        search.relax(p, 1);
-        Search::add(p, search.worst_vertex(p));
-        search.relax(p, 1);
+        search.take_cone(p, 0, search.curvatures(p)[0]); // the cone that has been there longest
+        if(!search.put_cone(p))
+          return best;
       }
       search.relax(p, 2);
-      if(p.measure < best.measure)
+      if(p.measure < best.measure && p.error <= (std::max)(best.error, 0.1))
         best = p;
       if(!seen.insert(sorted(p.cones)).second)
         break;
@@ -301,70 +397,43 @@ private:
     return cones;
   }
 
-  // Moves single cones to vertices nearby, as long as that makes it better: farther ones first, and only the cones that have most influence; in the end each to
-  // its neighbours.
-  Placement moved(Search& search, Placement p)
+  // Moves single cones to vertices nearby, as long as that makes it better: always that which promises most. What is promised is exact to first order, but for vertices with a
+  // large |u| that have not been looked at, and but for the new place itself: vertices that break a promise are looked at from then on,
+  // and shorter moves are tried.
+  Placement moved(Search& search, const Placement& first)
   {
-    const std::size_t few = 2;
-    std::size_t reach = (std::max)(std::size_t(1), std::size_t(std::sqrt(double(search.candidates().size())) / 12));
-    for(; reach > 0; reach /= 2)
-      for(bool is_better = true; is_better; )
-      {
-        is_better = false;
-        const std::vector<std::size_t> order = search.by_influence(p);
-        for(std::size_t k = 0; k < order.size() && !is_better && (k < few || reach == 1); ++k)
-          is_better = improve(search, p, order[k], reach);
-      }
-    return p;
-  }
-
-  bool improve(Search& search, Placement& p, std::size_t i, std::size_t reach)
-  {
-    const double gain = reach == 1 ? 1e-4 : 1e-3, curvature = search.curvature(p, i);
-    std::vector<std::pair<double, Index> > trials; // by what is expected
-    for(Index v : ring(p.cones[i], reach))
-      if(!t_.is_border_vertex(v) && !p.is_cone(v))
-        trials.emplace_back(search.measure_if_moved(p, i, curvature, v), v);
-    std::sort(trials.begin(), trials.end());
-    const std::size_t most = 1;
-    for(std::size_t k = 0; k < trials.size() && k < most && trials[k].first < (1 - gain) * p.measure; ++k)
+    const std::size_t reach = (std::max)(std::size_t(2), std::size_t(std::sqrt(double(search.candidates().size())) / 6));
+    const double gain = 5e-4;
+    Placement p = first;
+    std::set<std::pair<Index, Index> > tried;
+    std::size_t number_of_moves = 0;
+    search.watch(p);
+    for(int failures = 0; reach >> (failures / 2) > 0; )
     {
-      Placement trial = p;
-      trial.cones[i] = trials[k].second;
-      if(search.relax(trial, 4) && trial.measure < (1 - gain) * p.measure)
+      const Cone_move move = search.best_move(p, reach >> (failures / 2), tried);
+      const double enough = (1 - gain) * p.measure;
+      if(!(move.expected < enough))
+        break;
+      Placement trial = search.moved(p, move.cone, move.curvature, move.to);
+      if(trial.measure < enough && search.relax(trial, 2, 1e-2, false) && trial.measure < enough)
       {
         p = std::move(trial);
-        ++result_.number_of_moves;
-        return true;
+        ++number_of_moves;
+        tried.clear();
+        failures = 0;
+        search.watch(p);
+      }
+      else
+      {
+        tried.insert(std::make_pair(p.cones[move.cone], move.to));
+        ++failures;
+        search.watch(trial);
       }
     }
-    return false;
-  }
-
-  // Some vertices at that distance in edges, all around.
-  std::vector<Index> ring(Index v, std::size_t distance) const
-  {
-    std::set<Index> seen = {v};
-    std::vector<Index> front(1, v);
-    for(std::size_t d = 0; d < distance && !front.empty(); ++d)
-    {
-      std::vector<Index> next;
-      for(Index w : front)
-        t_.for_each_outgoing(w, [&](Index h)
-        {
-          for(Index x : {t_.target(h), t_.apex(h)})
-            if(seen.insert(x).second)
-              next.push_back(x);
-        });
-      front.swap(next);
-    }
-    const std::size_t most = 6;
-    if(front.size() <= most || distance == 1)
-      return front;
-    std::vector<Index> result;
-    for(std::size_t k = 0; k < most; ++k)
-      result.push_back(front[k * front.size() / most]);
-    return result;
+    if(number_of_moves == 0 || !search.relax(p, 6) || !(p.measure < first.measure))
+      return first;
+    result_.number_of_moves += number_of_moves;
+    return p;
   }
 
   // ---- Multiples of an angle
@@ -372,6 +441,8 @@ private:
   // Rounds the angles, takes out the cones that have become flat, and moves the others again.
   void quantize(Search& search, Placement p)
   {
+    if(!find_free_angles(search, p))
+      return;
     const long n = quanta_of_turn();
     const double quantum = 2 * Number_constants<double>::pi() / double(n);
     std::vector<double> x;
@@ -381,7 +452,7 @@ private:
     const std::vector<long> k = number_of_borders() == 0 && sum <= 0 ? std::vector<long>() : nearest_integers(x, sum);
     if(k.empty() && !x.empty())
     {
-      refused(Status::NOT_QUANTIZABLE, double(sum) * quantum);
+      refuse(Status::NOT_QUANTIZABLE, double(sum) * quantum);
       return;
     }
     Placement q;
@@ -399,7 +470,7 @@ private:
       }
     }
     if(!q.cones.empty() && search.relax(q, 6))
-      q = moved(search, std::move(q));
+      q = moved(search, q);
     std::vector<std::pair<Index, std::size_t> > order;
     for(std::size_t i = 0; i < kept.size(); ++i)
       order.emplace_back(q.cones[i], kept[i].second);
@@ -414,7 +485,7 @@ private:
       result_.angles.push_back(multiple(k[cone.second], n));
       result_.free_angles.push_back(free_angles[cone.second]);
     }
-    solve(result_.angles);
+    solve(q, result_.angles);
   }
 
   static Exact_angle<NT> multiple(long k, long n)
@@ -442,11 +513,36 @@ Cone_options cone_options(const NamedParameters& np)
   using parameters::get_parameter;
   Cone_options options;
   options.number_of_cones = choose_parameter(get_parameter(np, internal_np::conformal_number_of_cones), std::size_t(0));
+  options.maximum_area_distortion = choose_parameter(get_parameter(np, internal_np::conformal_maximum_area_distortion), 0.);
   options.maximum_u = choose_parameter(get_parameter(np, internal_np::conformal_maximum_u), 0.);
   options.angle_quantum = choose_parameter(get_parameter(np, internal_np::conformal_angle_quantum), 0.);
   options.measure = choose_parameter(get_parameter(np, internal_np::conformal_cone_measure), Cone_measure::MAXIMUM_U);
   options.number_of_sweeps = choose_parameter(get_parameter(np, internal_np::conformal_number_of_sweeps), std::size_t(10));
   return options;
+}
+
+// What became of a placement: status, elements at fault, and the cones, if there are any. `report` is that of the import.
+template <typename TriangleMesh>
+void report_cones(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_placement<double>& placement, Flattening_report<TriangleMesh>& report)
+{
+  const Conformal_metric<double>& metric = placement.metric;
+  report.statistics = metric.statistics;
+  report.status = placement.status;
+  report.amount = placement.amount;
+  if(!metric.is_retriangulated())
+    name_elements(mesh, metric.vertices, {}, metric.faces, report);
+  if(!bool(report) && report.status != Status::BOUND_NOT_MET)
+    return;
+  for(std::size_t i = 0; i < placement.cones.size(); ++i)
+  {
+    const auto v = mesh.vertex(placement.cones[i]);
+    const Exact_angle<double>& angle = placement.angles[i];
+    Cone<TriangleMesh> cone{v, mesh.index_of_vertex(v), angle.template radians<double>(), !angle.is_exact()};
+    cone.free_angle = placement.free_angles[i];
+    report.cones.push_back(cone);
+  }
+  for(std::uint32_t v : placement.flattened)
+    report.flattened_cones.push_back(mesh.vertex(v));
 }
 
 } // namespace internal
@@ -478,7 +574,7 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///    other than 1 begins with its curvature spread equally over the vertices, a sphere until it has three cones.
 ///  - *Concurrently*: each cone in turn is taken out, and put where |u| is largest then, until the cones settle or come back to where they were; the
 ///    best placement seen is kept.
-///  - *Locally*: each cone is moved to vertices nearby, as long as that makes it better.
+///  - *Locally*: single cones are moved to vertices nearby, always where most is gained, as long as that makes it better.
 ///  - *Rounded*, if there is an `angle_quantum`: the angles become positive multiples of it, with the least possible largest error among those which Gauss and Bonnet's formula
 ///    allows. A cone with the angle 2 pi is none any more. The others are moved locally again, now with these angles.
 ///
@@ -489,17 +585,22 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///
 /// \param tm a triangle mesh: one component, of any topology
 /// \param cone_angle_map receives the angle sums, in radians, of all vertices that are not on the border: those of the cones, and 2 pi
-/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below. The number of cones or the bound must be given; if
-///        both are, cones are placed until the first of the two is reached.
+/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below. The number of cones or a bound must be given; cones are
+///        placed until there are as many, or all bounds that are given are met.
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{number_of_cones}
 ///     \cgalParamDescription{how many cones}
 ///     \cgalParamType{`std::size_t`}
-///     \cgalParamDefault{as many as it takes to meet the bound, at most 256}
+///     \cgalParamDefault{as many as it takes to meet the bounds, at most 256}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{maximum_log_scale_factor}
 ///     \cgalParamDescription{the bound on |u|}
+///     \cgalParamType{`double`}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{maximum_area_distortion}
+///     \cgalParamDescription{the bound on the factor by which areas are scaled relative to the mean: on the largest max(a, 1 / a) of all faces, a = (scaled area / area) / (total scaled area / total area); faces without area do not count. Where edges were flipped, a is that of vertices, with e^{2u} for the first quotient}
 ///     \cgalParamType{`double`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
@@ -536,8 +637,8 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \return the report, with the cones. Maps are written iff it is a success, or `BOUND_NOT_MET`: then with the best placement found, `amount` is its largest |u|. Statuses: those of `import_mesh()`;
-///         `WRONG_TOPOLOGY` (several components); `MISSING_CONDITION` (neither number nor bound; or fewer than three cones on a sphere); `TOO_MANY_CONES` (more than vertices);
+/// \return the report, with the cones. Maps are written iff it is a success, or `BOUND_NOT_MET`: then with the best placement found, `amount` is its largest |u| if that is too large, else its area distortion. Statuses: those of `import_mesh()`;
+///         `WRONG_TOPOLOGY` (several components); `MISSING_CONDITION` (neither number nor bounds; or fewer than three cones on a sphere); `TOO_MANY_CONES` (more than vertices);
 ///         `ANGLE_OUT_OF_RANGE` (the quantum is not 2 pi / n); `NOT_QUANTIZABLE`; those of `Conformal_metric_solver::solve()`.
 ///
 /// Time: a few solves of a linear system with the one factor for each cone and sweep, and for each local move.
@@ -556,22 +657,14 @@ Flattening_report<TriangleMesh> place_cones(const TriangleMesh& tm,
   {
     const Intrinsic_triangulation<double>& t = mesh.triangulation;
     const Cone_placement<double> placement = place_cones(t, np);
-    report.statistics = placement.metric.statistics;
-    report.status = placement.status;
-    report.amount = placement.amount;
-    internal::name_elements(mesh, placement.metric.is_retriangulated() ? std::vector<std::uint32_t>() : placement.metric.vertices, {},
-                            placement.metric.is_retriangulated() ? std::vector<std::uint32_t>() : placement.metric.faces, report);
+    internal::report_cones(mesh, placement, report);
     if(bool(report) || report.status == Status::BOUND_NOT_MET)
     {
       for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
         if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v))
           put(cone_angle_map, mesh.vertex(v), 2 * CGAL_PI);
-      for(std::size_t i = 0; i < placement.cones.size(); ++i)
-      {
-        const double angle = placement.angles[i].template radians<double>();
-        put(cone_angle_map, mesh.vertex(placement.cones[i]), angle);
-        report.cones.push_back({mesh.vertex(placement.cones[i]), placement.cones[i], angle, !placement.angles[i].is_exact()});
-      }
+      for(const auto& cone : report.cones)
+        put(cone_angle_map, cone.vertex, cone.angle);
       if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_u_t>::value)
         for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
           if(!t.is_isolated_vertex(v))

@@ -137,7 +137,7 @@ inline void prescribe_a_rectangle(const Options& options, const Mesh& mesh, Cond
 
 inline void set_cones(const Options& options, const Mesh& mesh, Conditions& conditions)
 {
-  read_cone_file(options.cone_file, mesh,
+  read_cone_file(options.cone_file, mesh, options.quanta_of_turn,
                  [&](Vertex v) { conditions.is_constrained[v] = true; },
                  [&](Vertex v, double angle) { conditions.cone_angle[v] = angle; });
 }

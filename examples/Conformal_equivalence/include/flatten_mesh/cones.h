@@ -34,25 +34,35 @@ inline void require_inside(const Scanner& in, const Mesh& mesh, Vertex v)
     in.error("vertex ", v.idx(), " is on the border; a cone lies inside the surface");
 }
 
+// A number of degrees; of a multiple of 360 / `quanta_of_turn`, if that is not zero, its rounding is undone.
+inline double multiple_of_quantum(const Scanner& in, Vertex v, double degrees, unsigned int quanta_of_turn)
+{
+  if(quanta_of_turn == 0)
+    return degrees;
+  const double multiple = std::round(degrees * quanta_of_turn / 360), nearest = multiple * 360 / quanta_of_turn;
+  if(! (multiple > 0) || std::abs(degrees - nearest) > 1e-6)
+    in.error("vertex ", v.idx(), ": the angle ", degrees, " is no multiple of ", 360. / quanta_of_turn, " degrees (--quantize)");
+  return nearest;
+}
+
 // In radians, from a word in degrees.
-inline double cone_angle(const Scanner& in, Vertex v, std::string_view word)
+inline double cone_angle(const Scanner& in, Vertex v, std::string_view word, unsigned int quanta_of_turn)
 {
   double degrees = 0;
   if(! Scanner::parse(word, degrees))
     in.error("vertex ", v.idx(), ": expected an angle in degrees or 'free', found '", Scanner::printable(word), "'");
   if(! std::isfinite(degrees))
     in.error("vertex ", v.idx(), ": the angle ", degrees, " is not a finite number");
-  const double angle = degrees / 180 * CGAL_PI;
-  if(! (angle > 0))
+  if(! (degrees / 180 * CGAL_PI > 0))
     in.error("vertex ", v.idx(), ": the angle ", degrees, " is not positive");
-  return angle;
+  return multiple_of_quantum(in, v, degrees, quanta_of_turn) / 180 * CGAL_PI;
 }
 
 // Calls `fix(vertex)` for each cone of free angle, and `prescribe(vertex, angle)` for each of the others, in the
 // lines "vertex-index [angle in degrees | free]" of the file; # begins a comment. Each vertex is
-// inside the surface and is listed once.
+// inside the surface and is listed once. No angle is free if all are to be multiples of 360 / `quanta_of_turn`.
 template <typename Fix, typename Prescribe>
-void read_cone_file(const std::string& file, const Mesh& mesh, Fix fix, Prescribe prescribe)
+void read_cone_file(const std::string& file, const Mesh& mesh, unsigned int quanta_of_turn, Fix fix, Prescribe prescribe)
 {
   const std::string content = read_file(file);
   Scanner in(content, file, '#');
@@ -65,10 +75,12 @@ void read_cone_file(const std::string& file, const Mesh& mesh, Fix fix, Prescrib
     if(! listed.second)
       in.error("vertex ", v.idx(), " is listed twice, first in line ", listed.first->second);
     const std::string_view word = in.word_in_line();
-    if(word.empty() || word == "free")
+    if(! word.empty() && word != "free")
+      prescribe(v, cone_angle(in, v, word, quanta_of_turn));
+    else if(quanta_of_turn == 0)
       fix(v);
     else
-      prescribe(v, cone_angle(in, v, word));
+      in.error("vertex ", v.idx(), ": a free cone has any angle, not a multiple of ", 360. / quanta_of_turn, " degrees (--quantize)");
     if(! in.at_end_of_line())
       in.error("vertex ", v.idx(), ": expected nothing after '", Scanner::printable(word), "', found '",
                Scanner::printable(in.word()), "'");

@@ -8,7 +8,9 @@
 #include "mesh.h"
 #include "options.h"
 #include "results.h"
+#include "seamless.h"
 #include "sphere.h"
+#include "Stopwatch.h"
 
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
@@ -18,7 +20,6 @@
 #endif
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -32,18 +33,6 @@
 #endif
 
 namespace flattening {
-
-class Stopwatch
-{
-public:
-  double seconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
-};
 
 // The largest amount of memory that the program has had, 0 if unknown.
 inline std::size_t peak_memory_bytes()
@@ -66,6 +55,7 @@ struct Figures
   CE::Layout_verdict<Mesh> verdict;
   CE::Conformal_distortion<Mesh> distortion;
   Image_figures image; // of the sphere or the disk
+  std::vector<Seam_path> seams; // of a seamless layout
   std::size_t number_of_isolated_vertices = 0;
   std::size_t number_of_rounded_triangles = 0; // with --precision: those that are positive, but not in double
   double u_min = 0, u_max = 0;
@@ -75,7 +65,7 @@ struct Figures
   std::size_t number_of_crossings = 0, number_of_made_vertices = 0, number_of_made_faces = 0;
   Repair_figures repair;
 
-  double reading_seconds = 0, verifying_seconds = 0, writing_seconds = 0;
+  double reading_seconds = 0, placing_seconds = 0, verifying_seconds = 0, writing_seconds = 0;
 };
 
 inline void find_range_of_u(const Result& result, Figures& figures)
@@ -98,6 +88,7 @@ inline void describe_made_mesh(const Results& results, bool is_refined, Figures&
   figures.is_refined = is_refined;
   figures.number_of_crossings = results.refinement.crossings.size();
   figures.repair = results.repair;
+  figures.placing_seconds = results.placing_seconds;
   figures.number_of_made_vertices = results.made.mesh.number_of_vertices();
   figures.number_of_made_faces = results.made.mesh.number_of_faces();
 }
@@ -140,17 +131,21 @@ inline void judge(const Options& options, const Result& given, Result& drawn, Fi
   if(options.target == Target::SPHERE)
     lay_out_chords(drawn);
   else
-    figures.verdict = CE::verify_layout(drawn.mesh, drawn.uv);
+    figures.verdict = CE::verify_layout(drawn.mesh, drawn.lattice_uv ? *drawn.lattice_uv : drawn.uv);
   figures.distortion = CE::compute_conformal_distortion(drawn.mesh, drawn.uv);
   if(options.target != Target::PLANE)
   {
     figures.image = judge_image(options, figures.report, given, drawn);
     take_over_verdict(options.target, drawn, figures);
   }
+  else if(options.seamless)
+    figures.seams = seam_paths(drawn.mesh, drawn.uv, figures.report);
   else if(drawn.wide.is_used) // the triangles were found to be positive before they were rounded
     forget_rounded_triangles(figures);
   figures.verifying_seconds = watch.seconds();
 }
+
+inline double in_degrees(double angle) { return angle / CGAL_PI * 180; }
 
 inline const char* injective_text(const Figures& figures)
 {
@@ -186,6 +181,8 @@ inline void add_topology(const Report& report, Lines& lines)
     std::count_if(report.cones.begin(), report.cones.end(), [](const auto& cone) { return cone.is_free; }));
   if(n != 0)
     lines.emplace_back("cones", text(n, free == 0 ? "" : free == n ? " free" : text(", ", free, " of them free")));
+  if(! report.flattened_cones.empty())
+    lines.emplace_back("cones made flat", text(report.flattened_cones.size()));
   if(! report.transitions.empty())
     lines.emplace_back("seam edges", text(report.transitions.size()));
   for(const auto& lattice : report.lattices)
@@ -221,6 +218,19 @@ inline const char* target_text(Target target)
   return target == Target::SPHERE ? "sphere" : target == Target::DISK ? "disk" : "plane";
 }
 
+// What only seamless layouts have.
+inline void add_tiling(const Figures& figures, Lines& lines)
+{
+  const CE::Tiling& t = figures.report.tiling;
+  if(t.symmetry == 0)
+    return;
+  lines.emplace_back("seam paths", text(figures.seams.size()));
+  lines.emplace_back("tiles", text(t.number_of_tiles, has_hexagons(t.symmetry) ? " hexagons" : " squares"));
+  lines.emplace_back("scale and rotation", text(t.scale, ", ", in_degrees(t.rotation), " degrees"));
+  lines.emplace_back("deformation", text("mean ", t.mean_distortion, ", max ", t.maximum_distortion,
+                                         t.is_closest ? "" : " (a smaller one may exist)"));
+}
+
 // What only maps to the sphere and the disk have.
 inline void add_image(Target target, const Figures& figures, Lines& lines)
 {
@@ -239,6 +249,7 @@ inline Lines summary(const Options& options, const Mesh& mesh, const Figures& fi
   Lines lines;
   lines.emplace_back("mesh", text(mesh.number_of_vertices(), " vertices, ", mesh.number_of_faces(), " triangles"));
   add_topology(figures.report, lines);
+  add_tiling(figures, lines);
   if(options.target != Target::PLANE)
     lines.emplace_back("target", target_text(options.target));
   if(figures.number_of_isolated_vertices != 0)
@@ -269,7 +280,8 @@ inline Lines summary(const Options& options, const Mesh& mesh, const Figures& fi
     lines.emplace_back("largest length error", text(figures.report.layout_length_error));
   if(options.target != Target::PLANE)
     add_image(options.target, figures, lines);
-  lines.emplace_back("seconds", text("read ", figures.reading_seconds, ", import ", s.seconds.import, ", solve ", s.seconds.solve,
+  const std::string placing = figures.placing_seconds > 0 ? text(", place ", figures.placing_seconds) : "";
+  lines.emplace_back("seconds", text("read ", figures.reading_seconds, ", import ", s.seconds.import, placing, ", solve ", s.seconds.solve,
                                      ", cut ", s.seconds.cut, ", lay out ", s.seconds.layout,
                                      ", verify ", s.seconds.verify + figures.verifying_seconds));
   return lines;
@@ -290,8 +302,38 @@ inline nlohmann::ordered_json json_cones(const Report& report)
 {
   auto cones = nlohmann::ordered_json::array();
   for(const auto& cone : report.cones)
-    cones.push_back({ {"vertex", cone.vertex_index}, {"angle_degrees", cone.angle / CGAL_PI * 180}, {"prescribed", ! cone.is_free} });
+  {
+    cones.push_back({ {"vertex", cone.vertex_index}, {"angle_degrees", in_degrees(cone.angle)}, {"prescribed", ! cone.is_free} });
+    if(cone.free_angle != 0 && ! cone.is_free)
+      cones.back()["angle_before_degrees"] = in_degrees(cone.free_angle);
+    if(report.tiling.symmetry != 0)
+      cones.back()["lattice"] = cone.lattice_point;
+  }
   return cones;
+}
+
+inline nlohmann::ordered_json json_flattened_cones(const Report& report)
+{
+  auto vertices = nlohmann::ordered_json::array();
+  for(Vertex v : report.flattened_cones)
+    vertices.push_back(v.idx());
+  return vertices;
+}
+
+inline nlohmann::ordered_json json_seamless(const Figures& figures)
+{
+  const CE::Tiling& t = figures.report.tiling;
+  if(t.symmetry == 0)
+    return nullptr;
+  auto seams = nlohmann::ordered_json::array();
+  for(const Seam_path& path : figures.seams)
+    seams.push_back({ {"from", path.from.idx()}, {"to", path.to.idx()}, {"edges", path.number_of_edges}, {"rotation", path.quanta},
+                      {"translation", path.translation} });
+  nlohmann::ordered_json json = { {"symmetry", t.symmetry}, {"tiles", t.number_of_tiles}, {"scale", t.scale}, {"rotation_degrees", in_degrees(t.rotation)},
+                                  {"distortion", { {"mean", t.mean_distortion}, {"max", t.maximum_distortion} }}, {"closest", t.is_closest},
+                                  {"quasi_conformal_mean", { {"before", t.mean_factor_before}, {"after", t.mean_factor} }} };
+  json["seams"] = std::move(seams);
+  return json;
 }
 
 inline nlohmann::ordered_json json_lattices(const Report& report)
@@ -351,6 +393,8 @@ inline std::string json_report(const Options& options, const Mesh& mesh, const F
   json["u_min"] = figures.u_min;
   json["u_max"] = figures.u_max;
   json["cones"] = json_cones(figures.report);
+  json["flattened_cones"] = json_flattened_cones(figures.report);
+  json["seamless"] = json_seamless(figures);
   json["seam_edges"] = figures.report.transitions.size();
   json["lattices"] = json_lattices(figures.report);
   json["quasi_conformal"] = { {"mean", figures.distortion.mean_quasi_conformal_factor},
@@ -362,7 +406,7 @@ inline std::string json_report(const Options& options, const Mesh& mesh, const F
   json["layout_length_error"] = figures.report.layout_length_error;
   if(options.target != Target::PLANE)
     add_json_image(options, figures, json);
-  json["seconds"] = { {"import", figures.reading_seconds + s.seconds.import}, {"solve", s.seconds.solve},
+  json["seconds"] = { {"import", figures.reading_seconds + s.seconds.import}, {"place", figures.placing_seconds}, {"solve", s.seconds.solve},
                       {"cut", s.seconds.cut}, {"layout", s.seconds.layout},
                       {"verify", s.seconds.verify + figures.verifying_seconds}, {"write", figures.writing_seconds} };
   json["peak_memory_bytes"] = peak_memory_bytes();

@@ -14,8 +14,10 @@
 #include "Output_files.h"
 #include "refine.h"
 #include "results.h"
+#include "seamless.h"
 #include "solve.h"
 #include "sphere.h"
+#include "Stopwatch.h"
 
 #include <CGAL/Conformal_equivalence/IO/write_HTML.h>
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
@@ -87,8 +89,12 @@ inline const char* advice(const Options& options, const Report& report)
       return options.target == Target::SPHERE ? "; --target sphere takes closed surfaces of genus 0, of one component"
            : options.target == Target::DISK ? "; --target disk takes surfaces of genus 0 with one border, of one component" : "";
     case CE::Status::MISSING_CONDITION:
-      return options.cone_file.empty() ? " (--cones FILE)" : "";
-    case CE::Status::NOT_INJECTIVE: // by rounding: the metric is one
+      return options.places_cones ? " (a sphere: at least three)" : options.cone_file.empty() ? " (--cones FILE or --cones auto=N)" : "";
+    case CE::Status::BOUND_NOT_MET:
+      return " (more cones, or a looser bound, may help)";
+    case CE::Status::NOT_INJECTIVE: // by rounding: the metric is one; or by a deformation
+      if(options.seamless || options.places_cones)
+        return options.seamless ? " (more --tiles or other --cones may help)" : "";
       return options.precision_in_bits == bits_of_double && ! options.local_repair ? " (--precision BITS has more digits)" : "";
     default:
       return "";
@@ -156,6 +162,11 @@ inline CE::IO::HTML_options drawing_options(const Options& options, const Mesh& 
   CE::IO::HTML_options drawing;
   drawing.title = name_without_folder(options.input);
   drawing.figures = summary(options, mesh, figures);
+  if(options.seamless)
+  {
+    drawing.svg.tiles = figures.report.tiling.symmetry;
+    drawing.svg.checkerboard = false;
+  }
   drawing.svg.legend = options.color_by_quasi_conformal_factor ? "quasi-conformal factor" : "u";
   if(options.target == Target::SPHERE)
     drawing.svg = hemisphere_options(drawing.svg);
@@ -175,6 +186,29 @@ inline double texture_repetitions(const Result& result)
   }
   const double longest = (std::max)(x.upper - x.lower, y.upper - y.lower);
   return longest > 0 && std::isfinite(longest) ? 0.5 / CE::internal::round_number_below(longest / 14) : 1;
+}
+
+// What fits across the seams of a layout of square tiles: a checkerboard of squares half as wide, one of them in the centre of each tile. That
+// of pages has a corner at the origin.
+inline CE::IO::HTML_options page_options(CE::IO::HTML_options drawing, const Figures& figures)
+{
+  if(has_squares(figures.report.tiling.symmetry))
+  {
+    drawing.svg.tiles = 0;
+    drawing.svg.checkerboard = true;
+    drawing.svg.square = .5;
+  }
+  return drawing;
+}
+
+inline UV_map page_layout(const Figures& figures, const Result& result)
+{
+  if(! has_squares(figures.report.tiling.symmetry))
+    return result.uv;
+  UV_map uv = result.mesh.add_property_map<Halfedge, Kernel::Point_2>("h:page_uv").first;
+  for(Halfedge h : result.mesh.halfedges())
+    uv[h] = Kernel::Point_2(result.uv[h].x() + .25, result.uv[h].y() + .25);
+  return uv;
 }
 
 inline void write_sphere(const Options& options, const Result& result, Output_files& files)
@@ -199,12 +233,17 @@ inline void write_obj(const Options& options, const Result& result, const Materi
         ? CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::projective_weight_map(result.weight), material)
         : CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::default_values(), material);
     };
-    return result.wide.is_used ? write(result.wide.uv) : write(result.uv);
+    return result.wide.is_used ? write(result.wide.uv) : write(result.lattice_uv ? *result.lattice_uv : result.uv);
   });
   if(beside.material.empty())
     return;
   files.write(beside.material, [&](std::ostream& out)
   {
+    if(options.seamless && has_squares(static_cast<int>(options.quanta_of_turn)))
+    {
+      write_tile_material(out, material.name, name_without_folder(beside.texture));
+      return out.good();
+    }
     return CE::IO::write_MTL(out, material.name, name_without_folder(beside.texture), texture_repetitions(result));
   });
   files.write(beside.texture, [](std::ostream& out) { return CE::IO::write_checkerboard_PNG(out); });
@@ -226,7 +265,10 @@ inline void write_outputs(const Options& options, const Mesh& mesh, Result& resu
       files.write(options.svg, [&](std::ostream& out) { return CE::IO::write_SVG(out, result.mesh, layout, colors, drawing.svg); });
     if(! options.html.empty())
       files.write(options.html, [&](std::ostream& out)
-        { return CE::IO::write_HTML(out, result.mesh, result.uv, colors, drawing, CGAL::parameters::projective_weight_map(result.weight)); });
+      {
+        return CE::IO::write_HTML(out, result.mesh, page_layout(figures, result), colors, page_options(drawing, figures),
+                                  CGAL::parameters::projective_weight_map(result.weight));
+      });
   }
   figures.writing_seconds = watch.seconds();
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON

@@ -39,6 +39,13 @@ struct Options
   std::optional<std::array<std::size_t, 4> > corners; // of the rectangle; chosen if absent
   std::string angle_file, scale_file;                 // of the borders
   std::string cone_file;
+  bool places_cones = false;                          // --cones auto
+  std::size_t number_of_cones = 0;                    // to be placed; 0: as many as the bounds ask for
+  double maximum_log_scale_factor = 0, maximum_area_distortion = 0; // of placed cones; 0: no bound
+  unsigned int quanta_of_turn = 0;                    // n: the angles of cones are multiples of 2 pi / n; 0: any
+  bool seamless = false, lattice_coordinates = false;
+  std::size_t number_of_tiles = 0;                    // 0: by the bound on the distortion
+  double maximum_distortion = 1.02;
   bool unit_square = false;
   bool color_by_quasi_conformal_factor = false;
   bool keep_border = false, refine = false, local_repair = false, projective = false, require_injective = false, quiet = false;
@@ -83,11 +90,18 @@ inline po::options_description visible_options()
     ("cones", po::value<std::string>(),
        "FILE: cones inside the surface, lines 'vertex-index [angle in degrees | free]'; at a free cone, or where nothing "
        "follows the vertex, u = 0 and the angle is found. Closed surfaces need cones, except for tori\n"
-       "auto[=N]: not in this version (a file of such a name is given as ./auto)")
-    ("max-scale", po::value<double>(), "bound on u for automatic cones (not in this version)")
-    ("quantize", po::value<std::string>()->implicit_value("90"), "cones at multiples of this angle in degrees (not in this version)")
-    ("seamless", po::bool_switch(), "a seamless layout (not in this version)")
-    ("tiles", po::value<std::size_t>(), "number of tiles of a seamless layout (not in this version)")
+       "auto[=N]: N cones place themselves, or as many as it takes for --max-scale or --max-area (a file of such a name is given as ./auto)")
+    ("max-scale", po::value<std::string>(), "U: with --cones auto, cones are placed until |u| is at most U everywhere")
+    ("max-area", po::value<std::string>(), "A: with --cones auto, cones are placed until no triangle is scaled by more than the factor A, "
+       "relative to the mean of the areas")
+    ("quantize", po::value<std::string>(), "[DEGREES]: the angles of cones are multiples of this one, 360 / n (90 if none "
+       "is given): those of --cones auto are rounded, those of a file have to be")
+    ("seamless", po::bool_switch(), "the layout is scaled, turned and deformed as little as it takes, so that a texture of tiles fits across the "
+       "seams; the tiles are squares with --quantize 90 (default) or 180, hexagons with 60 or 120")
+    ("tiles", po::value<std::string>(), "T: with --seamless, about so many tiles; by default as few as --distortion allows")
+    ("distortion", po::value<std::string>()->default_value("1.02"), "D: with --seamless, bound on the mean quasi-conformal factor of the deformation")
+    ("lattice-coordinates", po::bool_switch(), "with --seamless, the texture coordinates are (a, b) for the point a + b e^(2 pi i / m), where m is 4 for "
+       "squares and 6 for hexagons: then the motions across the seams are exact for hexagons, too")
     ("retriangulate", po::value<std::string>()->default_value("when-needed"), "never: edges are kept\n"
        "when-needed: edges are flipped where there is no solution otherwise (default)\n"
        "always: the result depends on the surface alone, not on its triangulation")
@@ -127,33 +141,41 @@ inline std::string help_text()
   return out.str();
 }
 
-// What the design has room for and this version does not have.
-inline void refuse_what_is_not_available(const po::variables_map& values)
+inline void refuse_unknown_values(const po::variables_map& values)
 {
-  const auto refuse = [](const std::string& option)
-    { throw Usage_error(option + " is not available in this version"); };
-  const auto check = [&](const char* name, const std::vector<std::string>& available, const std::vector<std::string>& known)
+  const auto check = [&](const char* name, const std::vector<std::string>& known)
   {
     const std::string value = values[name].as<std::string>();
-    for(const std::string& s : available)
-      if(value == s)
-        return;
-    for(const std::string& s : known)
-      if(value == s)
-        refuse(text("--", name, ' ', value));
-    throw Usage_error(text("unknown value '", value, "' of --", name));
+    if(std::find(known.begin(), known.end(), value) == known.end())
+      throw Usage_error(text("unknown value '", value, "' of --", name));
   };
-  check("target", {"plane", "sphere", "disk"}, {});
-  check("moebius-weights", {"vertices", "areas"}, {});
-  check("frame", {"canonical", "unit-square"}, {});
-  check("retriangulate", {"never", "when-needed", "always"}, {});
-  check("color-by", {"u", "qc"}, {});
+  check("target", {"plane", "sphere", "disk"});
+  check("moebius-weights", {"vertices", "areas"});
+  check("frame", {"canonical", "unit-square"});
+  check("retriangulate", {"never", "when-needed", "always"});
+  check("color-by", {"u", "qc"});
+}
 
-  for(const char* name : {"max-scale", "quantize", "tiles"})
-    if(values.count(name))
-      refuse(text("--", name));
-  if(values["seamless"].as<bool>())
-    refuse("--seamless");
+// Whether an option is on the command line, with a value or as a switch.
+inline bool is_given(const po::variables_map& values, const std::string& name)
+{
+  return values.count(name) != 0 && ! values[name].defaulted();
+}
+
+// `what` does not go with any of these options.
+inline void exclude(const po::variables_map& values, const std::string& what, const std::vector<std::string>& names)
+{
+  for(const std::string& name : names)
+    if(is_given(values, name))
+      throw Usage_error(text(what, " and --", name, " exclude each other"));
+}
+
+// These options say something only together with `what`.
+inline void require(bool is_there, const po::variables_map& values, const std::string& what, const std::vector<std::string>& names)
+{
+  for(const std::string& name : names)
+    if(! is_there && is_given(values, name))
+      throw Usage_error(text("--", name, " needs ", what));
 }
 
 // Different vertices, separated by commas; `what` takes them, and says how many.
@@ -221,42 +243,29 @@ inline void parse_boundary(const std::vector<std::string>& values, Options& opti
 inline void parse_options_of_target(const po::variables_map& values, const std::string& target, Options& options)
 {
   typedef CGAL::Conformal_equivalence::Moebius_weights Moebius_weights;
-  const auto is_given = [&](const char* name) { return values.count(name) != 0 && ! values[name].defaulted(); };
-  const auto exclude = [](const std::string& a, const std::string& b) { throw Usage_error(text(a, " and ", b, " exclude each other")); };
   const auto vertex = [&](const char* name) -> std::optional<std::size_t>
   {
-    if(! is_given(name))
+    if(! is_given(values, name))
       return std::nullopt;
     return parse_vertices<1>(values[name].as<std::string>(), text("--", name, " takes the index of a vertex").c_str())[0];
   };
   options.vertex_at_infinity = vertex("vertex-at-infinity");
   options.disk_centre = vertex("disk-centre");
-  if(is_given("disk-points"))
+  if(is_given(values, "disk-points"))
     options.disk_points = parse_vertices<3>(values["disk-points"].as<std::string>(), "--disk-points takes the indices of three different vertices");
   options.moebius_weights = values["moebius-weights"].as<std::string>() == "areas" ? Moebius_weights::AREAS : Moebius_weights::VERTICES;
 
-  if(options.target == Target::PLANE)
-    for(const char* name : {"vertex-at-infinity", "moebius-weights"})
-      if(is_given(name))
-        throw Usage_error(text("--", name, " needs --target sphere or --target disk"));
-  if(options.target != Target::DISK)
-    for(const char* name : {"disk-centre", "disk-points"})
-      if(is_given(name))
-        throw Usage_error(text("--", name, " needs --target disk"));
+  require(options.target != Target::PLANE, values, "--target sphere or --target disk", {"vertex-at-infinity", "moebius-weights"});
+  require(options.target == Target::DISK, values, "--target disk", {"disk-centre", "disk-points"});
   if(options.target == Target::PLANE)
     return;
-  for(const char* name : {"cones", "frame", "keep-border", "local-repair"})
-    if(is_given(name))
-      exclude(target, text("--", name));
+  exclude(values, target, {"cones", "seamless", "frame", "keep-border", "local-repair"});
   if(options.target == Target::SPHERE)
-    for(const char* name : {"projective", "html"})
-      if(is_given(name))
-        exclude(target, text("--", name));
-  if(is_given("disk-centre") && is_given("disk-points"))
-    exclude("--disk-centre", "--disk-points");
-  for(const char* name : {"disk-centre", "disk-points"})
-    if(is_given(name) && is_given("moebius-weights"))
-      exclude(text("--", name), "--moebius-weights");
+    exclude(values, target, {"projective", "html"});
+  if(is_given(values, "disk-centre"))
+    exclude(values, "--disk-centre", {"disk-points", "moebius-weights"});
+  if(is_given(values, "disk-points"))
+    exclude(values, "--disk-points", {"moebius-weights"});
 }
 
 // Where the surface is mapped to: by --target, or by --boundary disk, which was read.
@@ -271,13 +280,96 @@ inline void parse_target(const po::variables_map& values, Options& options)
   parse_options_of_target(values, is_boundary_disk && ! is_given ? "--boundary disk" : option, options);
 }
 
-inline void parse_cones(const std::string& value, Options& options)
+// A finite number above `bound`.
+inline double parse_number_above(double bound, const po::variables_map& values, const char* name)
 {
-  if(value.empty())
+  const std::string word = values[name].as<std::string>();
+  double x = 0;
+  if(! Scanner::parse(word, x) || ! std::isfinite(x) || ! (x > bound))
+    throw Usage_error(text("--", name, " takes a number above ", bound, ", not '", word, "'"));
+  return x;
+}
+
+// A positive integer.
+inline std::size_t parse_count(const std::string& word, const std::string& option)
+{
+  std::int64_t n = 0;
+  if(! Scanner::parse(word, n) || n < 1)
+    throw Usage_error(text(option, " takes a positive integer, not '", word, "'"));
+  return static_cast<std::size_t>(n);
+}
+
+// How often an angle goes into a full turn.
+inline unsigned int parse_quantum(const std::string& word)
+{
+  const double most = 2520;
+  double degrees = 0;
+  if(! Scanner::parse(word, degrees) || ! (degrees >= 360 / most) || ! (degrees <= 360)
+     || std::abs(360 / degrees - std::round(360 / degrees)) > 1e-6)
+    throw Usage_error(text("--quantize takes 360 degrees divided by an integer up to ", most, ", not '", word, "'"));
+  return static_cast<unsigned int>(std::round(360 / degrees));
+}
+
+inline void parse_placement(const po::variables_map& values, Options& options)
+{
+  const std::string cones = values["cones"].as<std::string>();
+  options.places_cones = true;
+  if(cones != "auto")
+    options.number_of_cones = parse_count(cones.substr(5), "--cones auto=");
+  if(is_given(values, "max-scale"))
+    options.maximum_log_scale_factor = parse_number_above(0, values, "max-scale");
+  if(is_given(values, "max-area"))
+    options.maximum_area_distortion = parse_number_above(1, values, "max-area");
+  if(cones == "auto" && ! is_given(values, "max-scale") && ! is_given(values, "max-area"))
+    throw Usage_error("--cones auto needs a number (--cones auto=N), or a bound (--max-scale U or --max-area A); a file of this name: ./auto");
+  for(const std::string& boundary : values.count("boundary") ? values["boundary"].as<std::vector<std::string> >() : std::vector<std::string>())
+    if(boundary != "natural")
+      throw Usage_error(text("--cones ", cones, " and --boundary ", boundary, " exclude each other: cones are placed for natural borders"));
+}
+
+inline void parse_seamless(const po::variables_map& values, Options& options)
+{
+  options.seamless = true;
+  if(options.quanta_of_turn == 0)
+    options.quanta_of_turn = 4;
+  const unsigned int n = options.quanta_of_turn;
+  if(n != 2 && n != 3 && n != 4 && n != 6)
+    throw Usage_error("--seamless takes --quantize 180, 120, 90 or 60: there are no tiles for other angles");
+  if(is_given(values, "tiles"))
+    options.number_of_tiles = parse_count(values["tiles"].as<std::string>(), "--tiles");
+  options.maximum_distortion = parse_number_above(1, values, "distortion");
+  options.lattice_coordinates = values["lattice-coordinates"].as<bool>();
+  exclude(values, "--seamless", {"projective", "refine"}); // what is deformed is not conformal, and has no such weights
+  if(values["frame"].as<std::string>() == "unit-square")
+    throw Usage_error("--seamless and --frame unit-square exclude each other");
+  if(is_given(values, "tiles"))
+    exclude(values, "--tiles", {"distortion"});
+}
+
+// Cones, given in a file or to be placed; and what becomes of them in the layout.
+inline void parse_cones(const po::variables_map& values, Options& options)
+{
+  const std::string cones = is_given(values, "cones") ? values["cones"].as<std::string>() : "";
+  const bool is_auto = cones == "auto" || cones.compare(0, 5, "auto=") == 0, is_seamless = values["seamless"].as<bool>();
+  if(is_given(values, "cones") && cones.empty())
     throw Usage_error("--cones needs the name of a file");
-  if(value == "auto" || value.compare(0, 5, "auto=") == 0)
-    throw Usage_error(text("--cones ", value, " is not available in this version (a file of this name: ./", value, ")"));
-  options.cone_file = value;
+  require(is_auto, values, "--cones auto", {"max-scale", "max-area"});
+  require(is_seamless, values, "--seamless", {"tiles", "distortion", "lattice-coordinates"});
+  require(is_seamless || ! cones.empty(), values, "--cones or --seamless", {"quantize"});
+  if(is_given(values, "quantize"))
+    options.quanta_of_turn = parse_quantum(values["quantize"].as<std::string>());
+  if(is_auto)
+    parse_placement(values, options);
+  else
+    options.cone_file = cones;
+  if(is_seamless)
+    parse_seamless(values, options);
+  if(! is_auto && ! is_seamless)
+    return;
+  const std::string what = is_seamless ? "--seamless" : "--cones " + cones;
+  exclude(values, what, {"local-repair"});
+  if(values["precision"].as<std::string>() != "double")
+    throw Usage_error(what + " is computed with --precision double only");
 }
 
 inline void parse_numbers(const po::variables_map& values, Options& options)
@@ -307,6 +399,20 @@ inline CGAL::Conformal_equivalence::Retriangulation parse_retriangulation(const 
   return value == "always" ? Retriangulation::ALWAYS : value == "when-needed" ? Retriangulation::WHEN_NEEDED : Retriangulation::NEVER;
 }
 
+// The words of the command line. What follows --quantize belongs to it if it is a number, and only then.
+inline std::vector<std::string> words_of_command_line(int argc, const char* const argv[])
+{
+  std::vector<std::string> words;
+  for(int i = 1; i < argc; ++i)
+  {
+    words.push_back(argv[i]);
+    double degrees;
+    if(words.back() == "--quantize")
+      words.back() += i + 1 < argc && Scanner::parse(argv[i + 1], degrees) ? std::string("=") + argv[++i] : "=90";
+  }
+  return words;
+}
+
 inline po::variables_map parse_command_line(int argc, const char* const argv[])
 {
   po::options_description all;
@@ -317,7 +423,7 @@ inline po::variables_map parse_command_line(int argc, const char* const argv[])
   try
   {
     namespace style = po::command_line_style;
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positions)
+    po::store(po::command_line_parser(words_of_command_line(argc, argv)).options(all).positional(positions)
                 .style(style::default_style & ~style::allow_guessing).run(), values);
     po::notify(values);
   }
@@ -351,7 +457,7 @@ inline Options parse_options(int argc, const char* const argv[])
   options.is_version = values["version"].as<bool>();
   if(options.is_help || options.is_version)
     return options;
-  refuse_what_is_not_available(values);
+  refuse_unknown_values(values);
   if(! values.count("input"))
     throw Usage_error("no INPUT is given");
   options.input = values["input"].as<std::string>();
@@ -365,9 +471,8 @@ inline Options parse_options(int argc, const char* const argv[])
 #endif
   if(values.count("boundary"))
     parse_boundary(values["boundary"].as<std::vector<std::string> >(), options);
-  if(values.count("cones"))
-    parse_cones(values["cones"].as<std::string>(), options);
   parse_target(values, options);
+  parse_cones(values, options);
   parse_numbers(values, options);
   options.unit_square = values["frame"].as<std::string>() == "unit-square";
   options.color_by_quasi_conformal_factor = values["color-by"].as<std::string>() == "qc";

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace flattening {
@@ -27,6 +28,7 @@ struct Result
   UV_map uv;
   Vertex_map<double> u, weight;
   Wide_layout wide; // with --precision
+  std::optional<UV_map> lattice_uv; // with --lattice-coordinates: what is written instead of `uv`
 
   // With --target sphere or disk: the images of the vertices, in the plane z = 0 for the disk; the origin for isolated ones
   std::vector<std::array<double, 3> > image;
@@ -55,6 +57,7 @@ public:
   Result given, made;
   Refinement refinement;  // if edges were flipped
   Repair_figures repair;
+  double placing_seconds = 0; // of --cones auto
 
   explicit Results(Mesh& mesh) : given(mesh), made(m_made_mesh) {}
   Results(const Results&) = delete;

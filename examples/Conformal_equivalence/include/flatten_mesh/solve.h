@@ -12,12 +12,16 @@
 #include "precision.h"
 #include "repair.h"
 #include "results.h"
+#include "seamless.h"
+#include "Stopwatch.h"
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/place_cones.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <ostream>
@@ -78,35 +82,101 @@ struct Progress_visitor : CE::Default_visitor
   }
 };
 
-template <typename SolverTraits>
-Report flatten_with(const SolverTraits& solver, const Options& options, const Conditions& conditions,
+// The parameters of the search for cones.
+template <typename NamedParameters>
+auto placement_parameters(const Options& options, const NamedParameters& np)
+{
+  return np.number_of_cones(options.number_of_cones)
+           .maximum_log_scale_factor(options.maximum_log_scale_factor)
+           .maximum_area_distortion(options.maximum_area_distortion)
+           .angle_quantum(options.quanta_of_turn == 0 ? 0. : 2 * CGAL_PI / options.quanta_of_turn);
+}
+
+// Looks for the cones, and makes them conditions: angle sums if these were rounded, u = 0 otherwise.
+template <typename NamedParameters>
+Report place_cones(const Options& options, const Mesh& mesh, const Conditions& conditions, const NamedParameters& np)
+{
+  const Report report = CE::place_cones(mesh, conditions.cone_angle, placement_parameters(options, np));
+  if(report && options.quanta_of_turn == 0)
+    for(const auto& cone : report.cones)
+    {
+      conditions.cone_angle[cone.vertex] = 2 * CGAL_PI;
+      conditions.is_constrained[cone.vertex] = true;
+    }
+  return report;
+}
+
+// What is known of the cones since they were placed.
+inline void take_over_placement(const Report& placement, Report& report)
+{
+  report.flattened_cones = placement.flattened_cones;
+  for(auto& cone : report.cones)
+    for(const auto& placed : placement.cones)
+      if(cone.vertex == placed.vertex)
+        cone.free_angle = placed.free_angle;
+}
+
+// A seamless layout, with cones that are given or to be placed.
+template <typename NamedParameters>
+Report flatten_seamlessly(const Options& options, const Conditions& conditions, Results& results, const NamedParameters& np)
+{
+  const Stopwatch watch;
+  Result& given = results.given;
+  const auto tiling = placement_parameters(options, np)
+                        .number_of_tiles(options.number_of_tiles)
+                        .maximum_distortion(options.maximum_distortion)
+                        .seamless_coordinates(options.lattice_coordinates ? CE::Seamless_coordinates::LATTICE
+                                                                          : CE::Seamless_coordinates::CARTESIAN);
+  const Report report = options.places_cones
+    ? CE::compute_seamless_parameterization(given.mesh, given.uv, tiling)
+    : CE::compute_seamless_parameterization(given.mesh, given.uv,
+                                            tiling.cone_angle_map(conditions.cone_angle)
+                                                  .border_angle_map(conditions.border_angle)
+                                                  .vertex_is_constrained_map(conditions.is_constrained)
+                                                  .prescribed_log_scale_factor_map(conditions.u));
+  const CE::Statistics::Seconds& s = report.statistics.seconds;
+  if(options.places_cones) // what is counted nowhere else
+    results.placing_seconds = (std::max)(0., watch.seconds() - (s.import + s.solve + s.cut + s.layout + s.verify));
+  if(report && options.lattice_coordinates)
+    keep_lattice_coordinates(options.quanta_of_turn, given);
+  return report;
+}
+
+// `common`: the parameters of all doors.
+template <typename NamedParameters>
+Report flatten_with(const NamedParameters& common, const Options& options, const Conditions& conditions,
                     Results& results, Progress& progress)
 {
-  Progress_visitor visitor(progress);
   Result& given = results.given;
-  const auto common =
-    CGAL::parameters::log_scale_factor_map(given.u)
-                     .projective_weight_map(given.weight)
-                     .mollification(options.mollification)
-                     .gradient_tolerance(options.precision_in_bits > bits_of_double ? 0. : options.tolerance)
-                     .number_of_iterations(options.maximum_number_of_iterations)
-                     .retriangulation(options.retriangulation)
-                     .sparse_linear_solver(solver)
-                     .visitor(std::ref(visitor));
   if(options.target != Target::PLANE)
     return inscribe(options, results, common);
+  const auto in_the_plane = common.border_edges(options.keep_border ? CE::Border_edges::KEPT : CE::Border_edges::FLIPPABLE);
+  if(options.seamless)
+    return flatten_seamlessly(options, conditions, results, in_the_plane);
+  Report placement;
+  if(options.places_cones)
+  {
+    const Stopwatch watch;
+    progress.show("placing cones");
+    placement = place_cones(options, given.mesh, conditions, in_the_plane);
+    results.placing_seconds = watch.seconds();
+    if(! placement)
+      return placement;
+  }
   const auto np =
-    common.border_angle_map(conditions.border_angle)
+    in_the_plane
+          .border_angle_map(conditions.border_angle)
           .cone_angle_map(conditions.cone_angle)
           .vertex_is_constrained_map(conditions.is_constrained)
           .prescribed_log_scale_factor_map(conditions.u)
-          .border_edges(options.keep_border ? CE::Border_edges::KEPT : CE::Border_edges::FLIPPABLE)
           .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL);
   if(options.local_repair)
     return flatten_repaired(given, results.made, results.repair, np);
   if(options.precision_in_bits > bits_of_double)
     return flatten_precisely(given.mesh, given.uv, results.refinement, given.wide, np);
-  return CE::flatten(given.mesh, given.uv, np.common_refinement(std::ref(results.refinement)));
+  Report report = CE::flatten(given.mesh, given.uv, np.common_refinement(std::ref(results.refinement)));
+  take_over_placement(placement, report);
+  return report;
 }
 
 // The linear solvers compiled in, the default first.
@@ -133,9 +203,19 @@ inline void check_solver(const std::string& name)
 
 inline Report flatten(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
 {
-  if(options.solver == "simplicial" && ! std::is_same<CE::Default_solver_traits, CE::Simplicial_solver_traits>::value)
-    return flatten_with(CE::Simplicial_solver_traits(), options, conditions, results, progress);
-  return flatten_with(CE::Default_solver_traits(), options, conditions, results, progress);
+  Progress_visitor visitor(progress);
+  const auto common =
+    CGAL::parameters::log_scale_factor_map(results.given.u)
+                     .projective_weight_map(results.given.weight)
+                     .mollification(options.mollification)
+                     .gradient_tolerance(options.precision_in_bits > bits_of_double ? 0. : options.tolerance)
+                     .number_of_iterations(options.maximum_number_of_iterations)
+                     .retriangulation(options.retriangulation)
+                     .visitor(std::ref(visitor));
+  if constexpr(! std::is_same<CE::Default_solver_traits, CE::Simplicial_solver_traits>::value)
+    if(options.solver == "simplicial")
+      return flatten_with(common.sparse_linear_solver(CE::Simplicial_solver_traits()), options, conditions, results, progress);
+  return flatten_with(common, options, conditions, results, progress);
 }
 
 } // namespace flattening

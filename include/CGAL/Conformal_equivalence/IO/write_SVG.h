@@ -4,8 +4,8 @@
 /// \file IO/write_SVG.h
 /// A picture of a layout: its triangles coloured by a number each, for example the
 /// logarithmic scale factor (section 2 of the paper) or the quasi-conformal factor
-/// (section 7), under a checkerboard, with the outline, the two sides of each seam
-/// (section 3.3) in one colour, the cones (section 5), and a legend.
+/// (section 7), under a checkerboard or the tiles of a seamless layout (section 6), with the
+/// outline, the two sides of each seam (section 3.3) in one colour, the cones (section 5), and a legend.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_SVG_H
 #define CGAL_CONFORMAL_EQUIVALENCE_IO_WRITE_SVG_H
@@ -19,6 +19,7 @@
 #include <CGAL/Conformal_equivalence/internal/Text_buffer.h>
 
 #include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
 #include <CGAL/property_map.h>
 
 #include <algorithm>
@@ -47,6 +48,10 @@ struct SVG_options
   bool checkerboard = true;
   /// The side of a square; 0 chooses a round number such that about 20 squares lie along the layout.
   double square = 0;
+  /// n of a seamless layout (see `Tiling`): its tiles are drawn under the edges, for 2 and 4 unit squares with the integers in their centres, for 3 and 6 regular
+  /// hexagons about the points of Z + Z e^{i pi / 3}; no tiles for any other number. Where it would take more than 1000 lines, squares of an odd number of tiles
+  /// are drawn, and no hexagons.
+  int tiles = 0;
   /// The longer side of the drawing.
   double size = 1000;
   /// Up to this many faces the edges are drawn, apart from very short ones;
@@ -68,6 +73,27 @@ struct SVG_options
 } // namespace IO
 
 namespace internal {
+
+// Colours that are all different, the i-th far from those before it: lightness and hue are the points of a sequence that fills the square evenly
+// (the additive recurrence of the plastic number; Roberts 2018), in the cylindrical coordinates of Oklab (Ottosson 2020).
+inline RGB distinct_color(std::size_t i)
+{
+  const auto fraction = [i](double step) { const double x = double(i) * step; return x - std::floor(x); };
+  const double lightness = 0.45 + 0.35 * fraction(0.5698402909980532), hue = 2 * CGAL_PI * fraction(0.7548776662466927);
+  const double a = 0.12 * std::cos(hue), b = 0.12 * std::sin(hue);
+  const auto cube = [](double x) { return x * x * x; };
+  const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b),
+               m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b),
+               s = cube(lightness - 0.0894841775 * a - 1.2914855480 * b);
+  const auto channel = [](double x) // of sRGB, from linear light
+  {
+    x = (std::min)((std::max)(x, 0.), 1.);
+    return static_cast<unsigned char>(std::lround(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055)));
+  };
+  return {{ channel(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+            channel(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+            channel(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s) }};
+}
 
 // From the layout to the drawing: y points down there, and coordinates are
 // integers, hundredths of the unit of the drawing.
@@ -93,6 +119,10 @@ struct SVG_frame
     return {{ (p[0] - left) * scale, (top - p[1]) * scale }};
   }
 
+  // the part of the layout that is drawn
+  std::array<double, 2> lower_left() const  { return {{ left, top - height / scale }}; }
+  std::array<double, 2> upper_right() const { return {{ left + width / scale, top }}; }
+
   std::array<std::int64_t, 2> in_hundredths(const std::array<double, 2>& p) const
   {
     // numbers too far apart for a frame are drawn at its rim
@@ -114,6 +144,7 @@ class SVG_writer
 
   static constexpr std::size_t number_of_classes = 64;
   static constexpr double shortest_edge_drawn = 4; // shorter ones would only hide the colours
+  static constexpr double most_lines_of_squares = 1000, most_hexagons = 10000;
 
 public:
   SVG_writer(const TriangleMesh& tm, const HalfedgeUVMap& uv, const FaceScalarMap& scalar,
@@ -140,6 +171,9 @@ public:
       write_image(out);
     else
       write_triangles(out);
+    write_tiles(out);
+    if(number_of_faces() <= (std::min)(m_options.maximum_number_of_drawn_faces, m_options.maximum_number_of_faces_with_edges))
+      write_edges(out);
     write_circles(out);
     write_outline(out);
     write_seams_and_cones(out);
@@ -212,8 +246,6 @@ private:
       out << "\"/>\n";
     }
     out << "</g>\n";
-    if(number_of_faces() <= m_options.maximum_number_of_faces_with_edges)
-      write_edges(out);
   }
 
   void write_triangle(Text_buffer& out, const std::array<Point, 3>& t) const
@@ -231,6 +263,73 @@ private:
   {
     out << b[0] - a[0] << ' ' << b[1] - a[1];
   }
+
+  // --- the tiles of a seamless layout --------------------------------------------------------------------
+
+  bool has_square_tiles() const    { return m_options.tiles == 2 || m_options.tiles == 4; }
+  bool has_hexagonal_tiles() const { return m_options.tiles == 3 || m_options.tiles == 6; }
+
+  void write_tiles(Text_buffer& out) const
+  {
+    const Point lower = m_frame.lower_left(), upper = m_frame.upper_right();
+    const double squares = side_of_squares(), hexagons = (upper[0] - lower[0] + 1) * (upper[1] - lower[1] + 1) * 2 / std::sqrt(3.);
+    if(has_square_tiles() ? ! (squares > 0) : ! has_hexagonal_tiles() || ! (hexagons <= most_hexagons))
+      return;
+    out << "<path id=\"tiles\" transform=\"scale(.01)\" fill=\"none\" stroke=\"#000\" stroke-opacity=\".5\" stroke-width=\"80\" d=\"";
+    if(has_square_tiles())
+      write_squares(out, squares);
+    else
+      write_hexagons(out);
+    out << "\"/>\n";
+  }
+
+  // An odd number of tiles, so that the squares have integers in their centres; zero where numbers fail.
+  double side_of_squares() const
+  {
+    const Point lower = m_frame.lower_left(), upper = m_frame.upper_right();
+    const double lines = upper[0] - lower[0] + (upper[1] - lower[1]) + 2;
+    if(! (lines < 1e15) || ! ((std::max)({std::abs(lower[0]), std::abs(lower[1]), std::abs(upper[0]), std::abs(upper[1])}) < 1e15))
+      return 0;
+    return 2 * std::floor((std::ceil(lines / most_lines_of_squares)) / 2) + 1;
+  }
+
+  // The lines (k + 1/2) side.
+  void write_squares(Text_buffer& out, double side) const
+  {
+    const Point lower = m_frame.lower_left(), upper = m_frame.upper_right();
+    for(std::size_t axis = 0; axis < 2; ++axis)
+      for(double k = std::ceil(lower[axis] / side - 0.5); (k + 0.5) * side <= upper[axis]; ++k)
+      {
+        Point p = lower, q = upper;
+        p[axis] = q[axis] = (k + 0.5) * side;
+        const Grid_point a = m_frame.in_hundredths(p), b = m_frame.in_hundredths(q);
+        out << 'M' << a[0] << ' ' << a[1];
+        write_step(out << 'l', a, b);
+      }
+  }
+
+  // Of each hexagon four corners, from the left to the right; the other edges are those of its neighbours below.
+  void write_hexagons(Text_buffer& out) const
+  {
+    const Point lower = m_frame.lower_left(), upper = m_frame.upper_right();
+    const double row = std::sqrt(3.) / 2, h = row / 3;
+    for(double b = std::ceil(lower[1] / row) - 1; b * row <= upper[1] + h; ++b)
+      for(double a = std::ceil(lower[0] - b / 2 - 0.5); a + b / 2 <= upper[0] + 0.5; ++a)
+      {
+        const double x = a + b / 2, y = b * row;
+        const std::array<Point, 4> corners = {{ {{x - 0.5, y + h}}, {{x, y + 2 * h}}, {{x + 0.5, y + h}}, {{x + 0.5, y - h}} }};
+        Grid_point previous = m_frame.in_hundredths(corners[0]);
+        out << 'M' << previous[0] << ' ' << previous[1];
+        for(std::size_t k = 1; k < 4; ++k)
+        {
+          const Grid_point next = m_frame.in_hundredths(corners[k]);
+          write_step(out << 'l', previous, next);
+          previous = next;
+        }
+      }
+  }
+
+  // -------------------------------------------------------------------------------------------------------
 
   void write_edges(Text_buffer& out) const
   {
@@ -385,11 +484,11 @@ private:
   // A path a seam path, with both of its sides.
   void write_seams(Text_buffer& out, const std::vector<typename Seams::Path>& paths) const
   {
-    const std::vector<std::size_t> colors = seam_colors(paths);
+    const std::vector<std::string> colors = seam_colors(paths.size());
     out << "<g id=\"seams\" transform=\"scale(.01)\" fill=\"none\" stroke-width=\"400\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
     for(std::size_t i = 0; i < paths.size(); ++i)
     {
-      out << "<path stroke=\"#" << categorical_color(colors[i]) << "\" d=\"";
+      out << "<path stroke=\"" << colors[i] << "\" d=\"";
       write_side(out, paths[i], [&](halfedge_descriptor h)
         { return std::make_pair(corner_value(m_uv, prev(h, m_tm)), corner_value(m_uv, h)); });
       write_side(out, paths[i], [&](halfedge_descriptor h)
@@ -425,24 +524,12 @@ private:
     }
   }
 
-  // Colours are given in turn, past those taken at an end of the path, unless all are.
-  std::vector<std::size_t> seam_colors(const std::vector<typename Seams::Path>& paths) const
+  // All are different; up to 16 are easy to tell apart.
+  static std::vector<std::string> seam_colors(std::size_t number_of_paths)
   {
-    auto taken = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), m_tm); // a bit for each colour
-    for(auto v : vertices(m_tm))
-      put(taken, v, 0);
-    std::vector<std::size_t> colors;
-    for(const typename Seams::Path& path : paths)
-    {
-      const auto s = source(path.front(), m_tm), t = target(path.back(), m_tm);
-      std::size_t c = colors.size() % number_of_categorical_colors, tried = 0;
-      const auto is_taken = [&] { return (((get(taken, s) | get(taken, t)) >> c) & 1) != 0; };
-      for(; is_taken() && tried < number_of_categorical_colors; ++tried)
-        c = (c + 1) % number_of_categorical_colors;
-      put(taken, s, get(taken, s) | (std::uint32_t(1) << c));
-      put(taken, t, get(taken, t) | (std::uint32_t(1) << c));
-      colors.push_back(c);
-    }
+    std::vector<std::string> colors;
+    for(std::size_t i = 0; i < number_of_paths; ++i)
+      colors.push_back(number_of_paths <= number_of_categorical_colors ? std::string("#") + categorical_color(i) : hexadecimal(distinct_color(i)));
     return colors;
   }
 
@@ -496,9 +583,14 @@ private:
       out << "<text x=\"" << x + 30 << "\" y=\"" << top + 12 << "\">" << short_text(m_values.upper) << "</text>\n"
           << "<text x=\"" << x + 30 << "\" y=\"" << top + height << "\">" << short_text(m_values.lower) << "</text>\n";
     }
+    const auto write_note = [&](double line, const char* text, double value)
+    {
+      out << "<text x=\"" << x << "\" y=\"" << top + height + 34 + 20 * line << "\" font-size=\"13\">" << text << short_text(value) << "</text>\n";
+    };
     if(m_options.checkerboard)
-      out << "<text x=\"" << x << "\" y=\"" << top + height + 34 << "\" font-size=\"13\">side of a square: "
-          << short_text(m_options.square) << "</text>\n";
+      write_note(0, "side of a square: ", m_options.square);
+    if(has_square_tiles() && side_of_squares() > 1)
+      write_note(1, "tiles in a square, along a side: ", side_of_squares());
     out << "</g>\n";
   }
 
@@ -525,12 +617,12 @@ namespace IO {
 \ingroup PkgConformalEquivalenceIO
 
 draws the layout `uv` of `tm` as SVG: the triangles in 64 colours by the values of `scalar`,
-a checkerboard whose squares lie along the axes of the layout, the outline (borders and seams),
+a checkerboard whose squares lie along the axes of the layout, or the tiles of a seamless one, the outline (borders and seams),
 the two sides of each seam path in the same colour, the cones as dots, and a legend with the
 colours, the least and the largest value. Seams and cones are found in the layout itself
 (see `SVG_options`); their titles, shown by browsers under the mouse, give the number of a seam and
-of its edges, the place of a cone in `vertices(tm)` and its angle in degrees. Of seam paths that
-meet at a vertex up to 16 have different colours. Corners that are not finite are left out. A
+of its edges, the place of a cone in `vertices(tm)` and its angle in degrees. The colours of seam paths are all
+different (of some thousands of paths: nearly all), and easily told apart if there are no more than 16. Corners that are not finite are left out. A
 drawing of 200 000 triangles takes about 6 MB. The layout may have several pieces.
 
 \tparam TriangleMesh a model of `FaceListGraph`

@@ -513,6 +513,8 @@ private:
   {
     status = Status::NOT_INJECTIVE;
     faces = inverted_;
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   }
 
   // ---- Positions
