@@ -93,11 +93,11 @@ std::unique_ptr<Flat> flat(const Soup& soup, std::size_t number_of_cones, int n)
   return result;
 }
 
-Rectification rectified(const Flat& f, int n, double number_of_tiles)
+std::unique_ptr<Rectification> rectified(const Flat& f, int n, double number_of_tiles)
 {
   CE::internal::Rectification_options options;
   options.number_of_tiles = number_of_tiles;
-  return Rectification(f.t, f.cut, f.layout, f.cones, Texture_lattice(n), options, CE::Default_solver_traits());
+  return std::make_unique<Rectification>(f.t, f.cut, f.layout, f.cones, Texture_lattice(n), options, CE::Default_solver_traits());
 }
 
 Coefficients random_coefficients(std::size_t n, Random& random)
@@ -444,7 +444,8 @@ BOOST_AUTO_TEST_CASE(admissible_positions_are_those_of_the_papers_matrices)
     {
       const std::unique_ptr<Flat> f = flat(is_closed ? arms(3) : bumps(24), is_closed ? 7 : 5, n);
       const Texture_lattice lattice(n);
-      const Rectification r = rectified(*f, n, 500);
+      const std::unique_ptr<Rectification> whole = rectified(*f, n, 500);
+      Rectification& r = *whole;
       BOOST_TEST_REQUIRE((r.status == CE::Status::OK || r.status == CE::Status::NOT_INJECTIVE));
       const std::size_t rank_of_lattice = r.positions().rank();
       BOOST_TEST(rank_of_lattice == f->cones.size() - (is_closed ? 2 : 1));
@@ -482,7 +483,8 @@ BOOST_AUTO_TEST_CASE(motions_take_the_first_corner_of_a_vertex_to_all_others)
   for(const int n : {2, 4, 6})
   {
     const std::unique_ptr<Flat> f = flat(arms(3), 6, n);
-    const Rectification r = rectified(*f, n, 300);
+    const std::unique_ptr<Rectification> whole = rectified(*f, n, 300);
+    Rectification& r = *whole;
     const Texture_lattice lattice(n);
     std::vector<CE::internal::Lattice_coordinates<double> > translations;
     for(const auto& path : r.polygon().paths)
@@ -513,16 +515,17 @@ BOOST_AUTO_TEST_CASE(the_laplace_layout_of_the_flat_positions_is_the_breadth_fir
     for(const int n : {2, 4, 6, 3})
     {
       const std::unique_ptr<Flat> f = flat(is_closed ? arms(3) : bumps(24), is_closed ? 6 : 4, n);
-      Rectification r = rectified(*f, n, 400);
+      const std::unique_ptr<Rectification> whole = rectified(*f, n, 400);
+      Rectification& r = *whole;
       if(r.positions().rank() == 0)
         continue;
-      const std::vector<Complex> z = r.laplace_layout(r.flat_coefficients());
+      const std::vector<Complex> z = r.laplace_layout(r.choice().flat_coefficients());
       double largest = 0;
       for(Index v = 0; v < f->t.number_of_vertices(); ++v)
         largest = (std::max)(largest, std::abs(z[v] - r.normalized_corners()[r.polygon().first_corner[v]]));
       BOOST_TEST(largest < 1e-9);
-      BOOST_TEST(std::abs((r.flat_coefficients().adjoint() * r.energy() * r.flat_coefficients())(0)) < 1e-12 * r.energy().norm()
-                                                                                                     * r.flat_coefficients().squaredNorm());
+      BOOST_TEST(std::abs((r.choice().flat_coefficients().adjoint() * r.choice().energy() * r.choice().flat_coefficients())(0)) < 1e-12 * r.choice().energy().norm()
+                                                                                                     * r.choice().flat_coefficients().squaredNorm());
     }
 }
 
@@ -576,11 +579,12 @@ BOOST_AUTO_TEST_CASE(the_hermitian_form_is_the_conformal_energy_and_the_layout_i
     {
       const std::unique_ptr<Flat> f = flat(is_closed ? arms(3) : bumps(20), is_closed ? 7 : 6, n);
       const Texture_lattice lattice(n);
-      Rectification r = rectified(*f, n, 400);
+      const std::unique_ptr<Rectification> whole = rectified(*f, n, 400);
+      Rectification& r = *whole;
       const std::size_t k = r.positions().rank();
       BOOST_TEST_REQUIRE(k > 1u);
-      BOOST_TEST((r.energy() - r.energy().adjoint()).norm() == 0);
-      const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(r.energy()).eigenvalues();
+      BOOST_TEST((r.choice().energy() - r.choice().energy().adjoint()).norm() == 0);
+      const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(r.choice().energy()).eigenvalues();
       BOOST_TEST(eigenvalues(0) > -1e-10 * eigenvalues(k - 1)); // zero: that of the flat layout
       BOOST_TEST(eigenvalues(0) < 1e-10 * eigenvalues(k - 1));
       BOOST_TEST(eigenvalues(1) > 0);
@@ -588,7 +592,7 @@ BOOST_AUTO_TEST_CASE(the_hermitian_form_is_the_conformal_energy_and_the_layout_i
       {
         const Coefficients x = random_coefficients(k, random);
         std::vector<Complex> z = r.laplace_layout(x);
-        const double energy = conformal_energy(*f, r, lattice, x, z), form = (x.adjoint() * r.energy() * x)(0).real();
+        const double energy = conformal_energy(*f, r, lattice, x, z), form = (x.adjoint() * r.choice().energy() * x)(0).real();
         BOOST_TEST(energy == form, boost::test_tools::tolerance(1e-8));
         // anywhere else it is larger: by a second derivative that does not depend on where the vertex is
         for(int moved = 0; moved < 20; ++moved)
@@ -617,7 +621,8 @@ BOOST_AUTO_TEST_CASE(positions_have_less_energy_than_the_papers_rounding)
   {
     const std::unique_ptr<Flat> f = flat(is_closed ? arms(3) : bumps(24), is_closed ? 8 : 5, 4);
     const double tiles = 600;
-    Rectification r = rectified(*f, 4, tiles);
+    const std::unique_ptr<Rectification> whole = rectified(*f, 4, tiles);
+    Rectification& r = *whole;
     BOOST_TEST_REQUIRE((r.status == CE::Status::OK));
     BOOST_TEST(r.tiling.is_closest);
     Coefficients chosen(r.positions().rank());
@@ -637,10 +642,10 @@ BOOST_AUTO_TEST_CASE(positions_have_less_energy_than_the_papers_rounding)
     for(int k = 0; k < 64; ++k)
     {
       Coefficients x;
-      if(!r.round_independent_cones(std::polar(std::sqrt(tiles), pi / 2 * k / 64), x) || x.norm() == 0)
+      if(!r.choice().round_independent_cones(std::polar(std::sqrt(tiles), pi / 2 * k / 64), x) || x.norm() == 0)
         continue;
       ++n_compared;
-      n_better += r.relative_energy(chosen) <= r.relative_energy(x) * (1 + 1e-9) + 1. / 256 * 0.1 ? 1 : 0;
+      n_better += r.choice().relative_energy(chosen) <= r.choice().relative_energy(x) * (1 + 1e-9) + 1. / 256 * 0.1 ? 1 : 0;
     }
   }
   BOOST_TEST(n_compared >= 32u);
@@ -922,6 +927,8 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused)
   BOOST_TEST((status(disk, params::number_of_cones(3).angle_quantum(2 * pi / 5)) == Status::ANGLE_OUT_OF_RANGE));
   BOOST_TEST((status(disk, params::number_of_cones(3).angle_quantum(0.)) == Status::ANGLE_OUT_OF_RANGE));
   BOOST_TEST((status(disk, params::number_of_cones(100000)) == Status::TOO_MANY_CONES));
+  BOOST_TEST((status(disk, params::number_of_cones(3).maximum_distortion(0.9)) == Status::INVALID_NUMBER));
+  BOOST_TEST((status(disk, params::number_of_cones(3).maximum_distortion(std::numeric_limits<double>::quiet_NaN())) == Status::INVALID_NUMBER));
   BOOST_TEST((status(sphere, params::number_of_cones(2)) == Status::MISSING_CONDITION));
   BOOST_TEST((status(sphere, params::number_of_cones(3).angle_quantum(pi)) == Status::NOT_QUANTIZABLE));
   BOOST_TEST((status(sphere, params::number_of_tiles(10)) == Status::MISSING_CONDITION)); // a sphere without cones

@@ -10,14 +10,13 @@
 // MESH is no disk.
 
 #include "../include/methods.h"
+#include "../include/table.h"
 
 #include <CGAL/exceptions.h>
 
 #include <cstdlib>
 #include <exception>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -28,27 +27,6 @@ using namespace benchmarks;
 const std::vector<std::string> columns = {
   "mesh", "vertices", "method", "Newton steps", "max &#124;u&#124;", "mean qc", "max qc", "flips", "injective",
   "border error", "layout error" };
-
-void print_row(const std::vector<std::string>& cells)
-{
-  for(const std::string& cell : cells)
-    std::cout << "| " << cell << ' ';
-  std::cout << '|' << std::endl;
-}
-
-template <typename Number>
-std::string to_text(Number x, int digits)
-{
-  std::ostringstream out;
-  out << std::setprecision(digits) << x;
-  return out.str();
-}
-
-std::string name_of(const std::string& specification)
-{
-  std::string name = specification.substr(specification.find_last_of('/') + 1);
-  return name.substr(0, name.rfind(".off"));
-}
 
 std::vector<std::string> failure(const std::vector<std::string>& head, std::string why)
 {
@@ -107,8 +85,7 @@ int main(int argc, char* argv[])
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if(!arguments.empty() && arguments[0] == "--header")
   {
-    print_row(columns);
-    print_row(std::vector<std::string>(columns.size(), "---"));
+    print_head(columns);
     return EXIT_SUCCESS;
   }
   try

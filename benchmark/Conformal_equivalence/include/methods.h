@@ -6,6 +6,7 @@
 #ifndef CGAL_BENCHMARK_CONFORMAL_EQUIVALENCE_METHODS_H
 #define CGAL_BENCHMARK_CONFORMAL_EQUIVALENCE_METHODS_H
 
+#include "Processor_stopwatch.h"
 #include "benchmark_meshes.h"
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
@@ -28,7 +29,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -39,17 +39,6 @@ namespace benchmarks {
 namespace CE = CGAL::Conformal_equivalence;
 namespace SMP = CGAL::Surface_mesh_parameterization;
 typedef CE::internal::Stopwatch Stopwatch;
-
-// Processor seconds of all threads: what a busy machine does not change. With one
-// thread, on an idle machine, they are the seconds that pass.
-class Processor_stopwatch
-{
-public:
-  double seconds() const { return double(std::clock() - start_) / CLOCKS_PER_SEC; }
-
-private:
-  std::clock_t start_ = std::clock();
-};
 
 // Processor seconds of each stage of `flatten()`: a model of `ConformalEquivalenceVisitor`.
 class Stage_seconds : public CE::Default_visitor

@@ -107,6 +107,8 @@ private:
       report.status = Status::ANGLE_OUT_OF_RANGE;
       report.amount = quantum();
     }
+    else if(!(options().maximum_distortion >= 1))
+      report.status = Status::INVALID_NUMBER;
     return bool(report);
   }
 
@@ -306,7 +308,7 @@ private:
 /// \cgalNamedParamsEnd
 ///
 /// \return the report, with the cones and their lattice points, exact transitions, and the `Tiling`. Maps are written iff it is a success, or `BOUND_NOT_MET`: then of the best that
-///         was found. Statuses: those of `place_cones()` and `flatten()`; `WRONG_TOPOLOGY` (several components); `ANGLE_OUT_OF_RANGE` (no lattice has this quantum, or vertices: cones
+///         was found. Statuses: those of `place_cones()` and `flatten()`; `WRONG_TOPOLOGY` (several components); `INVALID_NUMBER` (a bound below 1); `ANGLE_OUT_OF_RANGE` (no lattice has this quantum, or vertices: cones
 ///         with other angles, or free ones); `NOT_SEAMLESS` (edges; cones are reported all the same); `NOT_INJECTIVE` (faces: inverted on every grid that
 ///         was tried); `SINGULAR_PROBLEM`.
 ///
