@@ -962,7 +962,9 @@ BOOST_AUTO_TEST_CASE(refined_meshes)
     BOOST_TEST(num_vertices(refined) == refinement.number_of_vertices());
     check_parts(refinement);
     Refinement other;
-    BOOST_REQUIRE(bool(n.map(params::common_refinement(std::ref(other)))));
+    BOOST_REQUIRE(bool(n.map(params::common_refinement(std::ref(other)).log_scale_factor_map(n.u))));
+    for(Vertex v : vertices(m.sm))
+      BOOST_TEST(m.u[v] == n.u[v]);
     for(Halfedge h : halfedges(refined))
     {
       const Vertex v = target(h, refined);

@@ -1145,6 +1145,11 @@ BOOST_AUTO_TEST_CASE(refined_meshes)
       params::log_scale_factor_map(m.u).spherical_refinement(std::ref(refinement)),
       params::projective_weight_map(weight).input_face_map(input_face));
     BOOST_REQUIRE(bool(report));
+    Maps direct(soup);
+    Refinement other;
+    BOOST_REQUIRE(bool(CE::map_to_sphere(direct.sm, direct.on_sphere, params::log_scale_factor_map(direct.u).spherical_refinement(std::ref(other)))));
+    for(Vertex v : vertices(m.sm))
+      BOOST_TEST(m.u[v] == direct.u[v]);
     BOOST_TEST(CGAL::is_valid_polygon_mesh(refined));
     BOOST_TEST(CGAL::is_closed(refined));
     BOOST_TEST(num_vertices(refined) + num_faces(refined) == num_edges(refined) + 2);

@@ -685,6 +685,8 @@ Flattening_report<TriangleMesh> map_to_disk_refined(const TriangleMesh& tm,
   mapping.run(np, true, true);
   if(bool(mapping.report) && make_refined_mesh(mapping.mesh, mapping.refinement, refined, uv, np, np_refined).faces.empty())
     mapping.report.status = Status::NOT_REPRESENTABLE;
+  if(bool(mapping.report))
+    internal::write_weights(mapping.mesh, mapping.weights, np);
   if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_common_refinement_t>::value)
     if(bool(mapping.report))
       parameters::get_parameter(np, internal_np::conformal_common_refinement).get() = std::move(mapping.refinement);

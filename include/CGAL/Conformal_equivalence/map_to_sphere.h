@@ -349,19 +349,25 @@ private:
   }
 };
 
+// Writes what the vertices of the mesh are scaled by.
+template <typename TriangleMesh, typename NT, typename NamedParameters>
+void write_weights_of_sphere(const Sphere_mapping<TriangleMesh, NT>& mapping, const NamedParameters& np)
+{
+  std::vector<typename Ideal_polyhedron<NT>::Wide> weights;
+  for(const auto& v : mapping.polyhedron.vectors)
+    weights.push_back(v[3]);
+  write_weights(mapping.mesh, weights, np);
+}
+
 template <typename TriangleMesh, typename NT, typename VertexPointMap, typename NamedParameters>
 void write_sphere(const Sphere_mapping<TriangleMesh, NT>& mapping, VertexPointMap sphere_map, const NamedParameters& np)
 {
   typedef typename boost::property_traits<VertexPointMap>::value_type Point_3;
-  typedef typename Ideal_polyhedron<NT>::Wide Wide;
   const Intrinsic_triangulation<NT>& t = mapping.mesh.triangulation;
   for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
     if(!t.is_isolated_vertex(v))
       put(sphere_map, mapping.mesh.vertex(v), Point_3(mapping.points[v][0], mapping.points[v][1], mapping.points[v][2]));
-  std::vector<Wide> weights;
-  for(const auto& v : mapping.polyhedron.vectors)
-    weights.push_back(v[3]);
-  write_weights(mapping.mesh, weights, np);
+  write_weights_of_sphere(mapping, np);
 }
 
 } // namespace internal
@@ -531,6 +537,7 @@ Flattening_report<TriangleMesh> map_to_sphere_refined(const TriangleMesh& tm,
         put(get_parameter(np_refined, internal_np::conformal_input_face), elements.faces[f], mapping.mesh.face(result.parts.input_face[f]));
     if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_spherical_refinement_t>::value)
       get_parameter(np, internal_np::conformal_spherical_refinement).get() = mapping.refinement;
+    internal::write_weights_of_sphere(mapping, np);
   }
   internal::write_report(mapping.report, np);
   return mapping.report;
