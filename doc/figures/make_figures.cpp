@@ -18,6 +18,7 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
+#include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
@@ -443,6 +444,54 @@ void interpolation(const std::string& folder)
   canvas.write(folder + "/interpolation.png");
 }
 
+// The conformally equivalent layout with the cones of a seamless one, and its scale.
+template <typename NamedParameters>
+void flatten_with_cones_of(const CE::Flattening_report<Mesh>& seamless, Mesh& mesh, UV_map uv, const NamedParameters& np)
+{
+  auto angle = mesh.add_property_map<Vertex, double>("v:cone_angle", 2 * CGAL_PI).first;
+  for(const auto& cone : seamless.cones)
+    angle[cone.vertex] = cone.angle;
+  const auto report = CE::flatten(mesh, uv, CE::combine_named_parameters(np, params::cone_angle_map(angle)));
+  check(bool(report), CE::message(report));
+  for(Halfedge h : mesh.halfedges())
+    uv[h] = CGAL::ORIGIN + seamless.tiling.scale * (uv[h] - CGAL::ORIGIN);
+}
+
+// The same cones with the conformally equivalent layout, and with the seamless one; squares have the integers in their centres.
+void seamless(const std::string& folder)
+{
+  Mesh mesh = horned_cap(32, 2.0, 0.55);
+  auto uv = mesh.add_property_map<Halfedge, Point_2>("h:uv").first;
+  auto before = mesh.add_property_map<Halfedge, Point_2>("h:uv_before").first;
+  auto weight = mesh.add_property_map<Mesh::Edge_index, double>("e:weight").first; // seams are to be seen: they go over the top
+  for(Mesh::Edge_index e : mesh.edges())
+    weight[e] = std::exp(-1.5 * mesh.point(mesh.vertex(e, 0)).z());
+  const auto np = params::seam_weight_map(weight);
+  const auto report = CE::compute_seamless_parameterization(mesh, uv, CE::combine_named_parameters(np, params::number_of_cones(3).number_of_tiles(150)));
+  check(bool(report), CE::message(report));
+  flatten_with_cones_of(report, mesh, before, np);
+  std::cout << "seamless: " << report.tiling.number_of_tiles << " tiles, qc mean " << report.tiling.mean_factor_before << ", then "
+            << report.tiling.mean_factor << "; cones of";
+  for(const auto& cone : report.cones)
+    std::cout << ' ' << cone.angle * 180 / CGAL_PI << " (" << cone.lattice_point[0] << ", " << cone.lattice_point[1] << ")";
+  std::cout << std::endl;
+
+  const Kernel::Vector_2 half(0.5, 0.5);
+  for(Halfedge h : mesh.halfedges())
+  {
+    uv[h] = uv[h] + half;
+    before[h] = before[h] + half;
+  }
+  auto is_beside_seam = mesh.add_property_map<Face, bool>("f:is_beside_seam", false).first;
+  for(const auto& transition : report.transitions)
+    is_beside_seam[mesh.face(transition.halfedge)] = is_beside_seam[mesh.face(mesh.opposite(transition.halfedge))] = true;
+  Canvas canvas(900, 330);
+  draw_surface(canvas, {5, 10, 340, 310}, mesh, Checkerboard{before, 1});
+  draw_surface(canvas, {360, 10, 340, 310}, mesh, Checkerboard{uv, 1});
+  draw_layout(canvas, {720, 10, 175, 310}, mesh, uv, 1, [&](Face f) { return is_beside_seam[f] ? Color{0.95, 0.6, 0.25} : Color{1, 0.98, 0.9}; });
+  canvas.write(folder + "/seamless.png");
+}
+
 int main(int argc, char* argv[])
 {
   const std::string folder = argc > 1 ? argv[1] : ".";
@@ -450,6 +499,7 @@ int main(int argc, char* argv[])
   boundary_conditions(folder);
   interpolation(folder);
   comparison(folder);
+  seamless(folder);
   if(argc > 2)
     std::ofstream(argv[2]) << std::setprecision(17) << horned_cap(20, 2.0, 0.55);
   return EXIT_SUCCESS;
