@@ -137,6 +137,25 @@ BOOST_AUTO_TEST_CASE(sums_that_positive_integers_cannot_have_are_refused)
 
 // ---- The search
 
+// Multiples of 2 pi / 11 are none of pi / 2520, but prescribed all the same.
+BOOST_AUTO_TEST_CASE(rounded_cones_are_not_free_whatever_the_quantum)
+{
+  Mesh sm = surface_mesh<Mesh>(arms(2));
+  const auto angle = sm.add_property_map<Vertex, double>("v:angle", 0).first;
+  for(const double quantum : {2 * pi / 11, pi / 2, 0.})
+  {
+    const auto report = CE::place_cones(sm, angle, params::number_of_cones(5).angle_quantum(quantum));
+    BOOST_TEST_REQUIRE(bool(report));
+    BOOST_TEST(!report.cones.empty());
+    for(const auto& cone : report.cones)
+    {
+      BOOST_TEST(cone.is_free == (quantum == 0));
+      if(quantum > 0)
+        BOOST_TEST(std::abs(std::remainder(cone.angle, quantum)) < 1e-14);
+    }
+  }
+}
+
 // A solver that is given is copied, and copies may share one factor.
 BOOST_AUTO_TEST_CASE(a_given_solver_finds_the_same)
 {

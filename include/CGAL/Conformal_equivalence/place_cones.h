@@ -54,6 +54,7 @@ struct Cone_placement
   std::vector<Index> cones;                ///< in ascending order
   std::vector<Exact_angle<NT> > angles;    ///< by cone: the angle sum, exactly if it was rounded to a multiple
   std::vector<double> free_angles;         ///< by cone: what it was before it was rounded, when all cones were free (radians, up to 1e-6)
+  bool is_rounded = false;                 ///< whether angles were rounded
   std::vector<Index> flattened;            ///< cones whose angles were rounded to 2 pi: they are none any more
 
   Conformal_metric<NT> metric;             ///< with these angle sums, and u = 0 on borders
@@ -455,6 +456,7 @@ private:
       refuse(Status::NOT_QUANTIZABLE, double(sum) * quantum);
       return;
     }
+    result_.is_rounded = true;
     Placement q;
     q.u = std::move(p.u);
     std::vector<std::pair<Index, std::size_t> > kept;
@@ -537,7 +539,7 @@ void report_cones(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_pl
   {
     const auto v = mesh.vertex(placement.cones[i]);
     const Exact_angle<double>& angle = placement.angles[i];
-    Cone<TriangleMesh> cone{v, mesh.index_of_vertex(v), angle.template radians<double>(), !angle.is_exact()};
+    Cone<TriangleMesh> cone{v, mesh.index_of_vertex(v), angle.template radians<double>(), !placement.is_rounded};
     cone.free_angle = placement.free_angles[i];
     report.cones.push_back(cone);
   }
