@@ -702,9 +702,12 @@ BOOST_AUTO_TEST_CASE(cartesian_coordinates_of_hexagons_are_exact_to_rounding)
 // With one or two cones on a disk, or three on a sphere, there is nothing to deform: the paper's Figure 5.
 BOOST_AUTO_TEST_CASE(two_cones_on_a_lens_and_three_on_a_sphere_stay_conformal)
 {
-  const auto lens = result(rings(12, [](double x, double y) { return 0.7 * (1 - x * x - y * y); }));
+  const auto horn = [](double x, double y) { return 0.75 * std::exp(-(x * x + y * y) / 0.045); };
+  const auto lens = result(rings(18, [&](double x, double y) { return horn(x - 0.45, y) + horn(x + 0.45, y); }));
   (*lens)(params::number_of_cones(2).angle_quantum(pi).maximum_distortion(1.001));
   check_whole(*lens, 2);
+  BOOST_TEST_REQUIRE(lens->report.cones.size() == 2u);
+  BOOST_TEST((lens->report.cones[0].lattice_point != lens->report.cones[1].lattice_point));
   BOOST_TEST(lens->report.tiling.mean_distortion < 1 + 1e-9);
   BOOST_TEST(lens->report.tiling.maximum_distortion < 1 + 1e-7);
   BOOST_TEST(conformal_error(*lens) < 1e-9);
