@@ -185,6 +185,31 @@ inline std::vector<std::string> boundary_arguments(const Input& input, const Fol
   }
 }
 
+// Cones: of the file, or placed; of any angles, or multiples; and seamless layouts.
+enum Cones { NO_CONES, FILE_OF_CONES, PLACED, QUANTIZED_FILE, PLACED_AND_QUANTIZED, SEAMLESS, SEAMLESS_FILE, SEAMLESS_WITHIN_BOUND, NUMBER_OF_CONES };
+enum Tiles { BY_DISTORTION, BY_NUMBER, HEXAGONS, HALF_TURNS, NUMBER_OF_TILES };
+
+inline Cones cones(const Input& input) { return Cones(input.choices[CONES] % NUMBER_OF_CONES); }
+inline bool is_seamless(const Input& input) { return cones(input) >= SEAMLESS; }
+
+constexpr std::uint8_t cone_choice(Cones cones, int number, Tiles tiles = BY_DISTORTION)
+{
+  return static_cast<std::uint8_t>(cones + NUMBER_OF_CONES * (number - 1 + 8 * tiles));
+}
+
+inline std::vector<std::string> cone_arguments(const Input& input, const Folder& folder)
+{
+  const std::string file = "--cones=" + (folder / "cones.txt"), placed = "--cones=auto=" + std::to_string(1 + input.choices[CONES] / NUMBER_OF_CONES % 8);
+  const std::vector<std::vector<std::string> > of_cones = { {}, { file }, { placed }, { file, "--quantize" }, { placed, "--quantize=60" }, { placed, "--seamless" },
+    { file, "--seamless" }, { "--cones=auto", "--max-scale=1", "--max-area=20", "--seamless" } };
+  const std::vector<std::vector<std::string> > of_tiles = { { "--distortion=1.1" }, { "--tiles=50" }, { "--quantize=60", "--lattice-coordinates" }, { "--quantize=180" } };
+  std::vector<std::string> result = of_cones[cones(input)];
+  if(is_seamless(input))
+    for(const std::string& a : of_tiles[input.choices[CONES] / (8 * NUMBER_OF_CONES) % NUMBER_OF_TILES])
+      result.push_back(a);
+  return result;
+}
+
 struct Output_file { Output output; const char* option; const char* name; };
 
 constexpr Output_file output_files[] = { {OBJ, "--output=", "out.obj"}, {SVG, "--svg=", "out.svg"},
@@ -194,8 +219,8 @@ constexpr Output_file output_files[] = { {OBJ, "--output=", "out.obj"}, {SVG, "-
 inline std::vector<std::string> arguments(const Input& input, const Folder& folder)
 {
   std::vector<std::string> a = boundary_arguments(input, folder);
-  if(input.choices[CONES] % 2)
-    a.push_back("--cones=" + (folder / "cones.txt"));
+  for(const std::string& cone_argument : cone_arguments(input, folder))
+    a.push_back(cone_argument);
   const char* retriangulations[] = { "never", "when-needed", "always" };
   a.push_back(std::string("--retriangulate=") + retriangulations[input.choices[RETRIANGULATION] % 3]);
   a.push_back("--max-iterations=" + std::to_string(input.choices[ITERATIONS] % (maximum_number_of_iterations + 1)));
@@ -205,7 +230,7 @@ inline std::vector<std::string> arguments(const Input& input, const Folder& fold
     {TOLERANCE, "--tolerance=" + argument(input.texts[TOLERANCE_TEXT])}, {SIMPLICIAL, "--solver=simplicial"},
     {REFINE, "--refine"} };
   for(const auto& flag : flags)
-    if(input.has(flag.first))
+    if(input.has(flag.first) && ! (is_seamless(input) && (flag.first & (PROJECTIVE | UNIT_SQUARE | REFINE)) != 0)) // usage errors
       a.push_back(flag.second);
   for(const Output_file& file : output_files)
     if(input.has(file.output))
@@ -586,7 +611,7 @@ inline Input conditions(Boundary boundary, int retriangulation, int flags, const
 {
   Input input;
   input.choices[BOUNDARY] = boundary;
-  input.choices[CONES] = ! cones.empty();
+  input.choices[CONES] = cones.empty() ? NO_CONES : FILE_OF_CONES;
   input.choices[RETRIANGULATION] = static_cast<std::uint8_t>(retriangulation);
   input.choices[FLAGS] = static_cast<std::uint8_t>(flags);
   input.choices[OUTPUTS] = OBJ | SVG | HTML;
@@ -595,6 +620,12 @@ inline Input conditions(Boundary boundary, int retriangulation, int flags, const
 #endif
   input.choices[ITERATIONS] = maximum_number_of_iterations;
   input.texts = {{ corners, "1e-10", angles, scale, cones }};
+  return input;
+}
+
+inline Input with_cones(Input input, std::uint8_t choice)
+{
+  input.choices[CONES] = choice;
   return input;
 }
 
@@ -618,6 +649,15 @@ inline std::vector<Input> valid_inputs()
   add_in_all_formats(conditions(NOT_GIVEN, 0, 0), cubes(rings(1)), inputs);
   add_in_all_formats(conditions(NOT_GIVEN, 2, PROJECTIVE, "", "0 1080\n"), cubes(rings(2)), inputs);
   add_in_all_formats(conditions(NATURAL, 2, 0), cubes(rings(1), 1), inputs);
+  add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), cone_choice(PLACED, 2)), grid(4, 0.3, 1), inputs);
+  add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), cone_choice(PLACED_AND_QUANTIZED, 8)), cubes(one), inputs);
+  add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), cone_choice(SEAMLESS, 2, BY_NUMBER)), grid(5, 0.6, 1), inputs);
+  add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), cone_choice(SEAMLESS, 3, HEXAGONS)), grid(5, 0.6, 1), inputs);
+  add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0, "", "0 270\n1 270\n2 270\n3 270\n4 270\n5 270\n6 270\n7 270\n"),
+                                cone_choice(SEAMLESS_FILE, 1)), cubes(one), inputs);
+  add_in_all_formats(with_cones(conditions(NOT_GIVEN, 2, 0, "", "0 180\n1 180\n2 180\n3 180\n"), cone_choice(SEAMLESS_FILE, 1, HALF_TURNS)),
+                     octahedron(), inputs);
+  add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), cone_choice(SEAMLESS_WITHIN_BOUND, 1)), grid(4, 0.3, 1), inputs);
   return inputs;
 }
 
