@@ -64,7 +64,8 @@ public:
     }, [] {}); // what is judged is the layout that is rectified
     if(!bool(report))
       return;
-    tell_what_was_placed();
+    if constexpr(is_automatic)
+      report_rounding(flattening.mesh, placement_, report);
     const Stopwatch rectifying;
     try
     {
@@ -159,15 +160,6 @@ private:
   bool is_multiple(const Exact_angle<double>& angle) const
   {
     return angle.is_exact() && angle.units % (2 * Exact_angle<double>::units_of_pi / symmetry()) == 0;
-  }
-
-  void tell_what_was_placed()
-  {
-    Flattening_report<TriangleMesh>& report = flattening.report;
-    for(std::size_t i = 0; i < placement_.free_angles.size() && i < report.cones.size(); ++i)
-      report.cones[i].free_angle = placement_.free_angles[i];
-    for(Index v : placement_.flattened)
-      report.flattened_cones.push_back(flattening.mesh.vertex(v));
   }
 
   // ---- Rectification

@@ -523,6 +523,16 @@ Cone_options cone_options(const NamedParameters& np)
   return options;
 }
 
+// What the cones of the report, those that were placed, were before their angles were rounded.
+template <typename TriangleMesh>
+void report_rounding(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_placement<double>& placement, Flattening_report<TriangleMesh>& report)
+{
+  for(std::size_t i = 0; i < report.cones.size(); ++i)
+    report.cones[i].free_angle = placement.free_angles[i];
+  for(std::uint32_t v : placement.flattened)
+    report.flattened_cones.push_back(mesh.vertex(v));
+}
+
 // What became of a placement: status, elements at fault, and the cones, if there are any. `report` is that of the import.
 template <typename TriangleMesh>
 void report_cones(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_placement<double>& placement, Flattening_report<TriangleMesh>& report)
@@ -539,12 +549,9 @@ void report_cones(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_pl
   {
     const auto v = mesh.vertex(placement.cones[i]);
     const Exact_angle<double>& angle = placement.angles[i];
-    Cone<TriangleMesh> cone{v, mesh.index_of_vertex(v), angle.template radians<double>(), !placement.is_rounded};
-    cone.free_angle = placement.free_angles[i];
-    report.cones.push_back(cone);
+    report.cones.push_back({v, mesh.index_of_vertex(v), angle.template radians<double>(), !placement.is_rounded});
   }
-  for(std::uint32_t v : placement.flattened)
-    report.flattened_cones.push_back(mesh.vertex(v));
+  report_rounding(mesh, placement, report);
 }
 
 } // namespace internal

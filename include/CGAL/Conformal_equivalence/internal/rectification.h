@@ -117,6 +117,8 @@ public:
       deform();
     else
       status = Status::SINGULAR_PROBLEM;
+    if(status == Status::OK || status == Status::BOUND_NOT_MET)
+      report();
   }
 
   Rectification(const Rectification&) = delete;
@@ -367,9 +369,11 @@ private:
       if(!t_.is_isolated_vertex(Index(v)))
         unmended[v] = lattice_.from_plane(s * corner_[polygon_.first_corner[v]] + moved[v]);
     }
-    if(!finish(std::move(z), positions, s, c.is_closest))
+    const Motions motion = motions(positions);
+    if(!finish(std::move(z), positions, motion, s))
       return false;
-    const Mean_factor deformation = deformation_factor(motions(positions), unmended);
+    const Mean_factor deformation = deformation_factor(motion, unmended);
+    tiling.is_closest = c.is_closest;
     tiling.mean_distortion = deformation.mean;
     tiling.maximum_distortion = deformation.largest;
     return true;
@@ -391,40 +395,44 @@ private:
   {
     const double tiles = options_.number_of_tiles > 0 ? options_.number_of_tiles : 64;
     const double s = std::sqrt(tiles * lattice_.area_of_tile());
-    if(!finish(scaled_flat(s), std::vector<Lattice_point>(cones_.size() + polygon_.paths.size(), Lattice_point{{0, 0}}), s, true))
+    const std::vector<Lattice_point> origin(cones_.size() + polygon_.paths.size(), Lattice_point{{0, 0}});
+    if(!finish(scaled_flat(s), origin, motions(origin), s))
       refuse_inverted();
   }
 
   // Rounds the positions where motions must be exact, makes the corners, and judges them.
-  bool finish(Positions z, const std::vector<Lattice_point>& integral, const Complex& s, bool is_closest)
+  bool finish(Positions z, const std::vector<Lattice_point>& integral, const Motions& motion, const Complex& s)
   {
     for(std::size_t i = 0; i < cones_.size(); ++i)
       z[cones_[i].vertex] = {{double(integral[i][0]), double(integral[i][1])}};
-    const std::vector<Lattice_point> translation(integral.begin() + cones_.size(), integral.end());
-    const Motions motion = motions(integral);
     Layout<double> result;
     if(!seamless_(motion, z, result))
       return false;
-    CGAL_postcondition(seamless_.is_seamless(motion, z, translation));
+    translation_of_path_.assign(integral.begin() + cones_.size(), integral.end());
+    CGAL_postcondition(seamless_.is_seamless(motion, z, translation_of_path_));
     layout = std::move(result);
-    layout.length_error = flat_.length_error;
     cone_positions.assign(integral.begin(), integral.begin() + cones_.size());
-    find_transitions(translation);
-    measure(s, is_closest);
+    scale_ = s;
     return true;
   }
 
-  void find_transitions(const std::vector<Lattice_point>& translation)
+  // ---- What is told of the layout that was taken
+
+  void report()
   {
-    layout.transitions.clear();
-    quanta.clear();
-    translations.clear();
+    layout.length_error = flat_.length_error;
+    find_transitions();
+    measure();
+  }
+
+  void find_transitions()
+  {
     for(Index e = 0; e < t_.number_of_edges(); ++e)
     {
       const Index h = t_.edge_halfedge(e);
       if(!cut_[e] || t_.is_border(h))
         continue;
-      const auto motion = polygon_.after(Meta_polygon::Values<std::int64_t>(), polygon_.crossing(h), translation);
+      const auto motion = polygon_.after(Meta_polygon::Values<std::int64_t>(), polygon_.crossing(h), translation_of_path_);
       const Complex rotation = lattice_.rotation(motion.quanta), by = lattice_.to_plane(motion.translation);
       layout.transitions.push_back({h, {{rotation.real(), rotation.imag()}}, {{by.real(), by.imag()}}});
       quanta.push_back(motion.quanta);
@@ -434,13 +442,11 @@ private:
 
   // ---- Distortion
 
-  void measure(const Complex& s, bool is_closest)
+  void measure()
   {
-    const double pi = CGAL_PI;
     tiling.symmetry = lattice_.symmetry();
-    tiling.scale = std::abs(s) / unit_;
-    tiling.rotation = std::remainder(std::arg(s), 2 * pi);
-    tiling.is_closest = is_closest;
+    tiling.scale = std::abs(scale_) / unit_;
+    tiling.rotation = std::remainder(std::arg(scale_), 2 * CGAL_PI);
     std::vector<Face_distortion> before, after;
     double area = 0;
     for(Index f = 0; f < t_.number_of_faces(); ++f)
@@ -537,6 +543,8 @@ private:
   Positions flat_z_;                  // by vertex, in its first corner: the same, without inverted triangles
   double unit_ = 1;                   // by which it was divided
   Position_lattice positions_;
+  Complex scale_ = 1;                 // by which the normalized layout was turned and scaled, in the layout taken
+  std::vector<Lattice_point> translation_of_path_; // the same
   std::vector<Index> fixed_;
   std::unique_ptr<Laplace> laplace_;
   std::unique_ptr<Position_choice> choice_;
