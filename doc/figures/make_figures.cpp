@@ -22,7 +22,7 @@
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
-#include <CGAL/Conformal_equivalence/internal/PNG.h>
+#include "flatten_mesh/PNG.h"
 #include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>

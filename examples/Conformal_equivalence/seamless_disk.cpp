@@ -8,7 +8,7 @@
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
-#include <CGAL/Conformal_equivalence/IO/write_SVG.h>
+#include "flatten_mesh/write_SVG.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -7,8 +7,8 @@
 #define BOOST_TEST_MODULE test_Lobachevsky
 #include "include/boost_test.h"
 
-#include <CGAL/Conformal_equivalence/internal/Double_double.h>
-#include <CGAL/Conformal_equivalence/internal/Lobachevsky.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>

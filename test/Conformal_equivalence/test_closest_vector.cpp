@@ -7,7 +7,7 @@
 #define BOOST_TEST_MODULE test_closest_vector
 #include "include/boost_test.h"
 
-#include <CGAL/Conformal_equivalence/internal/closest_vector.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>

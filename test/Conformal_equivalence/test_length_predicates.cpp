@@ -7,8 +7,8 @@
 #define BOOST_TEST_MODULE test_length_predicates
 #include "include/boost_test.h"
 
-#include <CGAL/Conformal_equivalence/internal/Double_double.h>
-#include <CGAL/Conformal_equivalence/internal/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>

@@ -13,11 +13,11 @@
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
-#include <CGAL/Conformal_equivalence/internal/Lobachevsky.h>
-#include <CGAL/Conformal_equivalence/internal/energy.h>
-#include <CGAL/Conformal_equivalence/internal/length_predicates.h>
-#include <CGAL/Conformal_equivalence/internal/solver/wide_newton_step.h>
-#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_newton_step.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 #include <CGAL/Conformal_equivalence/map_to_sphere.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
 

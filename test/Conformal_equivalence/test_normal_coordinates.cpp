@@ -10,7 +10,7 @@
 #include "include/boost_test.h"
 #include "include/test_meshes.h"
 
-#include <CGAL/Conformal_equivalence/internal/normal_coordinates.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/normal_coordinates.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -10,9 +10,9 @@
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/internal/delaunay.h>
-#include <CGAL/Conformal_equivalence/internal/ideal_delaunay_energy.h>
-#include <CGAL/Conformal_equivalence/internal/newton.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/ideal_delaunay_energy.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Newton_method.h>
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

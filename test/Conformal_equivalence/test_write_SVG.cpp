@@ -8,8 +8,8 @@
 #include "include/check_seams.h"
 #include "include/flattened_meshes.h"
 
-#include <CGAL/Conformal_equivalence/IO/write_HTML.h>
-#include <CGAL/Conformal_equivalence/IO/write_SVG.h>
+#include "flatten_mesh/write_HTML.h"
+#include "flatten_mesh/write_SVG.h"
 
 #include <CGAL/Polyhedron_3.h>
 

@@ -10,10 +10,10 @@
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
-#include <CGAL/Conformal_equivalence/internal/energy.h>
-#include <CGAL/Conformal_equivalence/internal/Lobachevsky.h>
-#include <CGAL/Conformal_equivalence/internal/solver/Laplacian_solver.h>
-#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 
 #include <benchmark/benchmark.h>
 

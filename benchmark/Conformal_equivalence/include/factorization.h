@@ -8,8 +8,8 @@
 
 #include "methods.h"
 
-#include <CGAL/Conformal_equivalence/internal/energy.h>
-#include <CGAL/Conformal_equivalence/internal/solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
 
 #include <cstdint>
 #include <vector>

@@ -13,7 +13,7 @@
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/internal/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <algorithm>
 #include <cmath>

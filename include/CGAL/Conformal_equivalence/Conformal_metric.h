@@ -12,7 +12,7 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 
 #include <cmath>
 #include <cstdint>

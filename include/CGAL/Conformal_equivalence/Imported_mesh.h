@@ -13,7 +13,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/internal/wedges.h>
+#include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
 #include <CGAL/Conformal_equivalence/mollify.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 

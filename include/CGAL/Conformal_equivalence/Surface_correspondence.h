@@ -19,12 +19,12 @@
 
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
-#include <CGAL/Conformal_equivalence/internal/Image_border.h>
-#include <CGAL/Conformal_equivalence/internal/Projective_atlas.h>
-#include <CGAL/Conformal_equivalence/internal/Three_point_transformation.h>
-#include <CGAL/Conformal_equivalence/internal/light_cone.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Image_border.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Projective_atlas.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Three_point_transformation.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/map_to_disk.h>
 #include <CGAL/Conformal_equivalence/map_to_sphere.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>

@@ -25,13 +25,13 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/common_refinement.h>
-#include <CGAL/Conformal_equivalence/internal/Box_tree.h>
-#include <CGAL/Conformal_equivalence/internal/double.h>
-#include <CGAL/Conformal_equivalence/internal/normal_coordinates.h>
-#include <CGAL/Conformal_equivalence/internal/overlay.h>
-#include <CGAL/Conformal_equivalence/internal/overlay_layout.h>
-#include <CGAL/Conformal_equivalence/internal/projective_cell.h>
+#include <CGAL/Conformal_equivalence/Common_refinement.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Box_tree.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/normal_coordinates.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Overlay.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/overlay_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/projective_cell.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/assertions.h>

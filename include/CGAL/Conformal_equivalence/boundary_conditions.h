@@ -15,7 +15,7 @@
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
-#include <CGAL/Conformal_equivalence/internal/rectangle_corners.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Rectangle_corners.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/assertions.h>

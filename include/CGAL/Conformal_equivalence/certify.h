@@ -17,11 +17,11 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
-#include <CGAL/Conformal_equivalence/internal/convex_polygon.h>
-#include <CGAL/Conformal_equivalence/internal/double.h>
-#include <CGAL/Conformal_equivalence/internal/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 

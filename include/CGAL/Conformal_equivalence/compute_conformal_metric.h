@@ -17,17 +17,17 @@
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/internal/double.h>
-#include <CGAL/Conformal_equivalence/internal/energy.h>
-#include <CGAL/Conformal_equivalence/internal/feasibility.h>
-#include <CGAL/Conformal_equivalence/internal/folded_double.h>
-#include <CGAL/Conformal_equivalence/internal/ideal_delaunay_energy.h>
-#include <CGAL/Conformal_equivalence/internal/length_predicates.h>
-#include <CGAL/Conformal_equivalence/internal/newton.h>
-#include <CGAL/Conformal_equivalence/internal/solver/Laplacian_solver.h>
-#include <CGAL/Conformal_equivalence/internal/solver/wide_newton_step.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/feasibility.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Folded_double.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/ideal_delaunay_energy.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Newton_method.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_newton_step.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
-#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/Default.h>

@@ -21,13 +21,13 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
-#include <CGAL/Conformal_equivalence/internal/double.h>
-#include <CGAL/Conformal_equivalence/internal/flipped_development.h>
-#include <CGAL/Conformal_equivalence/internal/layout_frames.h>
-#include <CGAL/Conformal_equivalence/internal/period_lattice.h>
-#include <CGAL/Conformal_equivalence/internal/pieces.h>
-#include <CGAL/Conformal_equivalence/internal/wedges.h>
-#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/Flipped_development.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/layout_frames.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/period_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
+#include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
-#include <CGAL/Conformal_equivalence/internal/rectification.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/rectification.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/place_cones.h>
 

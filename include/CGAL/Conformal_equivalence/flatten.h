@@ -14,11 +14,11 @@
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
-#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
-#include <CGAL/Conformal_equivalence/internal/convex_polygon.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/projective_interpolation.h>

@@ -12,7 +12,7 @@
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>

@@ -14,15 +14,15 @@
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
-#include <CGAL/Conformal_equivalence/internal/Double_double.h>
-#include <CGAL/Conformal_equivalence/internal/convex_polygon.h>
-#include <CGAL/Conformal_equivalence/internal/delaunay.h>
-#include <CGAL/Conformal_equivalence/internal/double.h>
-#include <CGAL/Conformal_equivalence/internal/ideal_refinement.h>
-#include <CGAL/Conformal_equivalence/internal/inscribed_mapping.h>
-#include <CGAL/Conformal_equivalence/internal/light_cone.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/ideal_refinement.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Inscribed_mapping.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <boost/graph/graph_traits.hpp>

@@ -15,12 +15,12 @@
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
-#include <CGAL/Conformal_equivalence/internal/ideal_refinement.h>
-#include <CGAL/Conformal_equivalence/internal/inscribed_mapping.h>
-#include <CGAL/Conformal_equivalence/internal/light_cone.h>
-#include <CGAL/Conformal_equivalence/internal/sphere_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/ideal_refinement.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Inscribed_mapping.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/sphere_predicates.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/boost/graph/properties.h>

@@ -14,8 +14,8 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/internal/length_predicates.h>
-#include <CGAL/Conformal_equivalence/internal/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/enum.h>

@@ -18,9 +18,9 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
-#include <CGAL/Conformal_equivalence/internal/cone_search.h>
-#include <CGAL/Conformal_equivalence/internal/triangle_formulas.h>
-#include <CGAL/Conformal_equivalence/internal/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_search.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/number_utils.h>

@@ -16,9 +16,9 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
-#include <CGAL/Conformal_equivalence/internal/delaunay.h>
-#include <CGAL/Conformal_equivalence/internal/edge_changes.h>
-#include <CGAL/Conformal_equivalence/internal/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Repair/edge_changes.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/use.h>

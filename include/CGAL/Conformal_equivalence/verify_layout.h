@@ -6,7 +6,7 @@
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
-#include <CGAL/Conformal_equivalence/internal/Cover_sweep.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/Cover_sweep.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/helpers.h>

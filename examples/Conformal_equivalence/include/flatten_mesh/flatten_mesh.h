@@ -19,9 +19,9 @@
 #include "sphere.h"
 #include "Stopwatch.h"
 
-#include <CGAL/Conformal_equivalence/IO/write_HTML.h>
+#include "flatten_mesh/write_HTML.h"
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
-#include <CGAL/Conformal_equivalence/IO/write_SVG.h>
+#include "flatten_mesh/write_SVG.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "options.h"
 #include "results.h"
 
-#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "mesh.h"
 #include "precision.h"
 
-#include <CGAL/Conformal_equivalence/common_refinement.h>
+#include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 

@@ -10,7 +10,7 @@
 #include "results.h"
 
 #include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
-#include <CGAL/Conformal_equivalence/internal/layout_seams.h>
+#include "flatten_mesh/layout_seams.h"
 #include <CGAL/Conformal_equivalence/Status.h>
 
 #include <array>

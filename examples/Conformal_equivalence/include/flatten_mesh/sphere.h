@@ -11,9 +11,9 @@
 #include "mesh.h"
 #include "results.h"
 
-#include <CGAL/Conformal_equivalence/internal/Text_buffer.h>
+#include <CGAL/Conformal_equivalence/internal/IO/Text_buffer.h>
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
-#include <CGAL/Conformal_equivalence/IO/write_SVG.h>
+#include "flatten_mesh/write_SVG.h"
 
 #include <cmath>
 #include <ostream>

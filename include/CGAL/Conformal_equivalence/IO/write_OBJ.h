@@ -12,10 +12,9 @@
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
-#include <CGAL/Conformal_equivalence/internal/corner_values.h>
-#include <CGAL/Conformal_equivalence/internal/Lobachevsky.h>
-#include <CGAL/Conformal_equivalence/internal/PNG.h>
-#include <CGAL/Conformal_equivalence/internal/Text_buffer.h>
+#include <CGAL/Conformal_equivalence/internal/IO/corner_values.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
+#include <CGAL/Conformal_equivalence/internal/IO/Text_buffer.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/boost/graph/helpers.h>
@@ -112,7 +111,7 @@ namespace IO {
 
 /// \ingroup PkgConformalEquivalenceIO
 /// The material that an OBJ file names: the material library (a file beside the
-/// OBJ file, written by `write_MTL()`) and the material in it. Nothing is named
+/// OBJ file) and the material in it. Nothing is named
 /// if `file` is empty.
 struct OBJ_material
 {
@@ -203,38 +202,6 @@ bool write_OBJ(const std::string& file_name, const TriangleMesh& tm, HalfedgeUVM
 {
   std::ofstream out(file_name, std::ios::binary);
   return out.good() && write_OBJ(out, tm, uv, np, material);
-}
-
-/// \ingroup PkgConformalEquivalenceIO
-/// writes a material library with one material called `name`, matt and white, with the
-/// picture in the file `texture` on it, which is repeated `repetitions` times in a
-/// unit of the layout. Returns `true` iff the stream is good after writing.
-inline bool write_MTL(std::ostream& out, const std::string& name, const std::string& texture,
-                      double repetitions = 1)
-{
-  {
-    internal::Text_buffer buffer(out);
-    buffer << "newmtl " << name << "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd -s "
-           << repetitions << ' ' << repetitions << " 1 " << texture << '\n';
-  }
-  out.flush();
-  return out.good();
-}
-
-/// \ingroup PkgConformalEquivalenceIO
-/// writes a PNG picture of two by two squares of a checkerboard, made to be repeated.
-/// The stream must be binary. Returns `true` iff it is good after writing.
-inline bool write_checkerboard_PNG(std::ostream& out)
-{
-  const std::uint32_t side = 64;
-  internal::Palette_image image(2 * side, 2 * side, {{{245, 245, 240, 255}}, {{70, 110, 160, 255}}});
-  for(std::uint32_t y = 0; y < image.height; ++y)
-    for(std::uint32_t x = 0; x < image.width; ++x)
-      image.pixels[y * image.width + x] = (x / side + y / side) % 2;
-  const std::string file = internal::png_file(image);
-  out.write(file.data(), static_cast<std::streamsize>(file.size()));
-  out.flush();
-  return out.good();
 }
 
 } // namespace IO

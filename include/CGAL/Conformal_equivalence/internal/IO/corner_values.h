@@ -1,0 +1,106 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_IO_CORNER_VALUES_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_IO_CORNER_VALUES_H
+
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/number_utils.h>
+
+#include <boost/graph/graph_traits.hpp>
+#include <boost/multiprecision/number.hpp>
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// The numbers in which coordinates of type FT are read and written: `double`, unless FT is a floating-point number with more digits.
+template <typename FT>
+struct Corner_number
+{
+  static constexpr bool is_wide = std::is_same<FT, long double>::value
+    || (boost::multiprecision::is_number<FT>::value
+        && int(boost::multiprecision::number_category<FT>::value) == int(boost::multiprecision::number_kind_floating_point));
+  typedef std::conditional_t<is_wide, FT, double> type;
+
+  static type from(const FT& x)
+  {
+    if constexpr(is_wide)
+      return x;
+    else
+      return CGAL::to_double(x);
+  }
+};
+
+// A point of the layout, as numbers.
+template <typename HalfedgeUVMap, typename Halfedge>
+auto corner_value(const HalfedgeUVMap& uv, Halfedge h)
+{
+  const auto& p = get(uv, h);
+  typedef Corner_number<std::decay_t<decltype(p.x())> > Number;
+  return std::array<typename Number::type, 2>{{ Number::from(p.x()), Number::from(p.y()) }};
+}
+
+// Numbers the distinct values of `uv` at the corners of each vertex, vertex by
+// vertex: `number[h]` becomes the one of the corner of `target(h)` in `face(h)`.
+// Equal values at a vertex share a number. Returns a halfedge for each number.
+template <typename TriangleMesh, typename HalfedgeUVMap, typename HalfedgeNumberMap>
+std::vector<typename boost::graph_traits<TriangleMesh>::halfedge_descriptor>
+number_corner_values(const TriangleMesh& tm, const HalfedgeUVMap& uv, HalfedgeNumberMap number)
+{
+  typedef boost::graph_traits<TriangleMesh>            Graph_traits;
+  typedef typename Graph_traits::halfedge_descriptor   halfedge_descriptor;
+
+  std::vector<halfedge_descriptor> representatives;
+  for(auto v : vertices(tm))
+  {
+    if(halfedge(v, tm) == Graph_traits::null_halfedge())
+      continue;
+    const std::size_t first = representatives.size();
+    for(halfedge_descriptor h : CGAL::halfedges_around_target(v, tm))
+    {
+      if(is_border(h, tm))
+        continue;
+      const auto value = corner_value(uv, h);
+      std::size_t i = first;
+      while(i < representatives.size() && corner_value(uv, representatives[i]) != value)
+        ++i;
+      if(i == representatives.size())
+        representatives.push_back(h);
+      put(number, h, i);
+    }
+  }
+  return representatives;
+}
+
+// Edges at which the layout ends: borders, and edges whose two sides lie apart.
+// To be asked of a halfedge that has a face.
+template <typename TriangleMesh, typename HalfedgeUVMap, typename Halfedge>
+bool is_outline(const TriangleMesh& tm, const HalfedgeUVMap& uv, Halfedge h)
+{
+  const Halfedge o = opposite(h, tm);
+  return is_border(o, tm)
+      || corner_value(uv, h) != corner_value(uv, prev(o, tm))
+      || corner_value(uv, prev(h, tm)) != corner_value(uv, o);
+}
+
+// The halfedge of the outline that follows `h` along it, the layout on the left.
+template <typename TriangleMesh, typename HalfedgeUVMap, typename Halfedge>
+Halfedge next_on_outline(const TriangleMesh& tm, const HalfedgeUVMap& uv, Halfedge h)
+{
+  Halfedge n = next(h, tm);
+  while(! is_outline(tm, uv, n))
+    n = next(opposite(n, tm), tm);
+  return n;
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_IO_CORNER_VALUES_H

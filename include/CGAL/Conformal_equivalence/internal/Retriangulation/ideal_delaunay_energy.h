@@ -1,0 +1,227 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The energy E on all of Penner's cell decomposition: at each u the triangulation is
+// flipped, by Ptolemy's relation, until it is ideal Delaunay for the lengths there. So
+// continued, E is twice continuously differentiable and convex, and no triangle that can be helped by
+// flips violates the triangle inequality (Gu, Luo, Sun and Wu, 2018; Springborn, 2020). Ptolemy's relation
+// commutes with the scaling of lengths, so the flips are made on the lengths at u = 0.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_IDEAL_DELAUNAY_ENERGY_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_IDEAL_DELAUNAY_ENERGY_H
+
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// The observer is told of every flip: before_flip(t, e), and after_flip(t, e) when the edge has other ends; and
+// by begin_anew(t) that all flips since the construction of the energy are taken back.
+template <typename Length, typename Observer>
+class Ideal_delaunay_energy : public Conformal_energy<double, Length>
+{
+  typedef Conformal_energy<double, Length> Base;
+
+public:
+  typedef typename Base::Triangulation Triangulation;
+  typedef typename Base::Index Index;
+  static constexpr bool has_flips = true;
+
+  // Keeps references to `t`, which it flips and which nobody else may change, and to the observer.
+  Ideal_delaunay_energy(Triangulation& t, Observer& observer)
+    : Base(t, true), t_(t), given_(t), flipper_(std::make_unique<Delaunay_flipper<Length> >(t)), observer_(observer)
+  {}
+
+  // what was decided, and how, and whether the triangulation is Delaunay
+  Delaunay_flipper<Length>& flipper() { return *flipper_; }
+
+  // evaluations at one vertex, of all calls of relax()
+  std::size_t number_of_probes() const { return number_of_probes_; }
+
+  // spent on finding and flipping edges, and on evaluations because of that
+  double seconds_of_flips() const { return seconds_; }
+
+  // moves to u, on the triangulation that is ideal Delaunay there
+  bool evaluate(const std::vector<double>& u)
+  {
+    bool is_finite = flip_at(u);
+    if(is_finite && is_worn_)
+    {
+      begin_anew();
+      is_finite = flip_at(u);
+    }
+    return is_finite;
+  }
+
+  // Moves u at v alone, from x, until the angle sum there is `target` up to some 0.01 radians, or by as much as `most`: E
+  // goes down. Returns the new u. What is known of other vertices is out of date until the next evaluation.
+  double relax(Index v, double target, double x, double most)
+  {
+    const double close = 0.01;
+    Probe here = probe(v, target, x), there = here;
+    const double direction = here.residual > 0 ? 1 : -1, last = x + direction * most;
+    double step = 0;
+    for(bool is_bracketed = false; !is_bracketed; ) // `here` stays on this side of the zero, `there` comes to lie beyond
+    {
+      if(std::abs(here.residual) <= close || here.u == last)
+        return here.u;
+      step = (std::max)({1e-15, 4 * step, std::abs(here.residual) / (std::max)(here.slope, 1e-3)});
+      there = probe(v, target, std::abs(last - here.u) > step ? here.u + direction * step : last);
+      is_bracketed = there.residual * direction <= 0;
+      if(!is_bracketed)
+        here = there;
+    }
+    for(int i = 0; i < 80 && std::abs(there.residual) > close; ++i) // false position, and bisection
+    {
+      const double part = i % 3 == 2 ? 0.5 : here.residual / (here.residual - there.residual);
+      const Probe between = probe(v, target, here.u + (part > 0.05 && part < 0.95 ? part : 0.5) * (there.u - here.u));
+      if(between.u == here.u || between.u == there.u)
+        break;
+      (between.residual * direction > 0 ? here : there) = between;
+      if(std::abs(here.residual) <= close)
+        return here.u;
+    }
+    x = std::abs(there.residual) <= close ? there.u : here.u;
+    probe(v, target, x);
+    return x;
+  }
+
+  // Flips what is not Delaunay at the factors s, whichever number type they have, beyond the errors of the lengths. At a
+  // solution these are edges that rounding has hidden. Returns whether there were any.
+  template <typename Scale>
+  bool make_delaunay(const std::vector<Scale>& s, const std::vector<double>& u)
+  {
+    const Timer timer(seconds_);
+    std::vector<Index> all(t_.number_of_edges());
+    std::iota(all.begin(), all.end(), Index(0));
+    if(!flip(s, std::move(all)))
+      return false;
+    Base::evaluate(u);
+    return true;
+  }
+
+private:
+  // Adds the time until its end.
+  class Timer
+  {
+    double& sum_;
+    Stopwatch stopwatch_;
+
+  public:
+    explicit Timer(double& sum) : sum_(sum) {}
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+    ~Timer() { sum_ += stopwatch_.seconds(); }
+  };
+
+  // u at one vertex, and what the angle sum there is then
+  struct Probe
+  {
+    double u, residual, slope;
+  };
+
+  Probe probe(Index v, double target, double u)
+  {
+    ++number_of_probes_;
+    this->set_scale(v, std::exp(u / 2));
+    std::vector<Index> candidates;
+    t_.for_each_outgoing(v, [&](Index h)
+    {
+      for(Index e : {t_.edge(h), t_.edge(t_.next(h))})
+        if(t_.is_flippable(e))
+          candidates.push_back(e);
+    });
+    {
+      const Timer timer(seconds_);
+      flip(this->scales(), std::move(candidates));
+    }
+    const std::pair<double, double> sum = this->angle_sum_at(v);
+    return {u, sum.first - target, sum.second};
+  }
+
+  bool flip_at(const std::vector<double>& u)
+  {
+    bool is_finite = Base::evaluate(u);
+    const Timer timer(seconds_);
+    for(int round = 0; is_finite && round < 100; ++round)
+    {
+      std::vector<Index> candidates = suspects();
+      if(candidates.empty() || !flip(this->scales(), std::move(candidates)))
+        break;
+      is_finite = Base::evaluate(u);
+    }
+    return is_finite;
+  }
+
+  // Edges with a negative weight, beyond rounding, and those of triangles that violate the triangle inequality.
+  std::vector<Index> suspects() const
+  {
+    std::vector<Index> result;
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+      if(this->weights()[e] < -1e-12 && t_.is_flippable(e))
+        result.push_back(e);
+    for(Index f : this->broken_faces())
+      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+        if(t_.is_flippable(t_.edge(h)))
+          result.push_back(t_.edge(h));
+    return result;
+  }
+
+  // Returns whether anything was flipped.
+  template <typename Scale>
+  bool flip(const std::vector<Scale>& s, std::vector<Index> candidates)
+  {
+    std::vector<Index> flipped;
+    flipper_->flip_to_delaunay(s, std::move(candidates), Flip_rule::PTOLEMY, [&](Index e)
+    {
+      observer_.before_flip(t_, e);
+      flipped.push_back(e);
+    });
+    for(Index e : flipped)
+    {
+      this->update_length(e);
+      observer_.after_flip(t_, e);
+      is_worn_ = is_worn_ || flipper_->length_error(e) > 1e-13;
+    }
+    return !flipped.empty();
+  }
+
+  // On long ways through many triangulations the bounds of the errors of lengths grow, until nothing can be decided any
+  // more. The triangulation at u does not depend on the way: it is found again from the one given.
+  void begin_anew()
+  {
+    t_ = given_;
+    flipper_ = std::make_unique<Delaunay_flipper<Length> >(t_);
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+      this->update_length(e);
+    observer_.begin_anew(t_);
+    is_worn_ = false;
+  }
+
+  Triangulation& t_;
+  const Triangulation given_;
+  std::unique_ptr<Delaunay_flipper<Length> > flipper_;
+  Observer& observer_;
+  double seconds_ = 0;
+  std::size_t number_of_probes_ = 0;
+  bool is_worn_ = false; // some length is known less well than to rounding
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_IDEAL_DELAUNAY_ENERGY_H

@@ -1,0 +1,258 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Which of the admissible positions a layout is deformed to (section 6.1 of Springborn, Schroeder and Pinkall, 2008).
+//
+// They are sum x_j b_j with a basis b_j (position_lattice.h) and coefficients x_j in the ring. The paper looks for the nearest positions, by rounding as many
+// as are independent. Here the distance is the conformal energy itself: with the Laplace layouts of the b_j the least energy for any x is a
+// Hermitian form x* H x. That of the layout itself, x = x*, is zero, and so is that of all its multiples s x*, by which it is turned and
+// scaled. So H knows no scale, and that is chosen: the closest vector to s x* for
+//
+//     x* H x  +  lambda |alpha(x)|^2,     alpha(x) = the factor by which positions were turned and scaled,
+//
+// where the small lambda says how much a scale other than s is worth. s is varied: its argument, as the lattice is not round, and its size.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_POSITION_CHOICE_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_POSITION_CHOICE_H
+
+#include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/position_lattice.h>
+
+#include <CGAL/number_utils.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+class Position_choice
+{
+public:
+  typedef std::complex<double> Complex;
+  typedef Lattice_coordinates<std::int64_t> Lattice_point;
+  typedef Eigen::VectorXcd Coefficients;
+
+  struct Candidate
+  {
+    std::vector<Lattice_point> coefficients;
+    Complex s;          // what was aimed at
+    double cost;
+    bool is_closest;
+  };
+
+  // `flat_positions` are those of the layout, in the plane; `energy(basis)` is H for a basis in the plane, by columns. The area of
+  // the layout must be 1. Keeps references.
+  template <typename Energy>
+  Position_choice(const Position_lattice& positions, const Texture_lattice& lattice, const Coefficients& flat_positions, Energy energy)
+    : lattice_of_positions_(positions), lattice_(lattice), flat_positions_(flat_positions),
+      basis_(plane_basis(positions, lattice, flat_positions.size())),
+      flat_coefficients_(basis_.colPivHouseholderQr().solve(flat_positions)), energy_(energy(basis_)), reduced_(gram())
+  {}
+
+  bool is_valid() const { return reduced_.is_valid(); }
+
+  const Eigen::MatrixXcd& energy() const { return energy_; }
+  const Coefficients& flat_coefficients() const { return flat_coefficients_; }
+
+  // By number of cone and path, in the plane.
+  Coefficients plane_positions(const Coefficients& x) const { return basis_ * x; }
+
+  // The same in lattice coordinates.
+  std::vector<Lattice_point> integral_positions(const std::vector<Lattice_point>& x) const
+  {
+    std::vector<Lattice_point> result(std::size_t(flat_positions_.size()), Lattice_point{{0, 0}});
+    for(std::size_t j = 0; j < x.size(); ++j)
+      for(std::size_t i = 0; i < result.size(); ++i)
+      {
+        const Lattice_point &p = lattice_of_positions_.basis[j][i], q = lattice_.times_theta(p);
+        for(int k = 0; k < 2; ++k)
+          result[i][k] += x[j][0] * p[k] + x[j][1] * q[k];
+      }
+    return result;
+  }
+
+  Coefficients complex_coefficients(const std::vector<Lattice_point>& x) const
+  {
+    Coefficients result(x.size());
+    for(std::size_t j = 0; j < x.size(); ++j)
+      result(j) = lattice_.to_plane(x[j]);
+    return result;
+  }
+
+  // alpha(x)
+  Complex scale_of(const Coefficients& x) const
+  {
+    const Coefficients y = basis_ * x;
+    return flat_positions_.dot(y) / flat_positions_.squaredNorm();
+  }
+
+  // The part of the energy in the area, for coefficients x.
+  double relative_energy(const Coefficients& x) const
+  {
+    return (x.adjoint() * energy_ * x)(0).real() / std::norm(scale_of(x));
+  }
+
+  // From the root of the mean square of |f_zbar / f_z|: not below the mean.
+  double expected_distortion(const Coefficients& x) const
+  {
+    return 1 + 2 * std::sqrt((std::max)(0., relative_energy(x)) / 2);
+  }
+
+  // The best ones with about that many tiles, for several rotations.
+  std::vector<Candidate> candidates(double number_of_tiles) const
+  {
+    const int number_of_rotations = 8;
+    const bool is_enumerated = reduced_.dimension() <= most_enumerated_dimensions;
+    const double size = std::sqrt(number_of_tiles * lattice_.area_of_tile());
+    std::vector<Candidate> result;
+    for(int k = 0; k < number_of_rotations; ++k)
+    {
+      const Complex s = std::polar(size, 2 * CGAL_PI * k / (lattice_.order() * number_of_rotations));
+      const Eigen::VectorXd target = real_coefficients(s * flat_coefficients_);
+      const std::vector<Lattice_vector> vectors = is_enumerated ? reduced_.near(target, 2, most_nodes)
+                                                                : std::vector<Lattice_vector>(1, reduced_.babai(target));
+      for(std::size_t i = 0; i < vectors.size(); ++i)
+        add_candidate(vectors[i], s, i == 0 && vectors[i].is_closest, result);
+    }
+    std::stable_sort(result.begin(), result.end(), [](const Candidate& c, const Candidate& d) { return c.cost < d.cost; });
+    return result;
+  }
+
+  // Looks longer for the closest one to what was aimed at.
+  Candidate closest(const Candidate& c) const
+  {
+    Candidate result = c;
+    if(reduced_.dimension() > most_enumerated_dimensions)
+      return result;
+    const Lattice_vector v = reduced_.closest(real_coefficients(c.s * flat_coefficients_), most_nodes_of_proof);
+    result.coefficients = lattice_points(v);
+    result.is_closest = v.is_closest;
+    return result.coefficients.empty() ? c : result;
+  }
+
+  // The rounding of the paper: as many cones as are independent go to the nearest lattice points, and the rest follows.
+  // For comparison. Returns false if the coefficients then are not in the ring.
+  bool round_independent_cones(const Complex& scale, Coefficients& x) const
+  {
+    const std::size_t r = lattice_of_positions_.rank();
+    Eigen::MatrixXcd independent(0, r);
+    Coefficients rounded(0);
+    for(Eigen::Index i = 0; i < basis_.rows() && independent.rows() < Eigen::Index(r); ++i)
+    {
+      Eigen::MatrixXcd more(independent.rows() + 1, r);
+      more << independent, basis_.row(i);
+      if(Eigen::FullPivLU<Eigen::MatrixXcd>(more).rank() < more.rows())
+        continue;
+      const Complex z = scale * flat_positions_(i);
+      const Lattice_coordinates<double> p = lattice_.from_plane(z);
+      Coefficients values(rounded.size() + 1);
+      values << rounded, lattice_.to_plane(Lattice_coordinates<double>{{std::round(p[0]), std::round(p[1])}});
+      independent = more;
+      rounded = values;
+    }
+    x = Eigen::FullPivLU<Eigen::MatrixXcd>(independent).solve(rounded);
+    bool is_integral = true;
+    for(std::size_t j = 0; j < r; ++j)
+    {
+      const Lattice_coordinates<double> p = lattice_.from_plane(x(j));
+      const Lattice_coordinates<double> nearest{{std::round(p[0]), std::round(p[1])}};
+      is_integral = is_integral && std::abs(p[0] - nearest[0]) < 1e-6 && std::abs(p[1] - nearest[1]) < 1e-6;
+      x(j) = lattice_.to_plane(nearest);
+    }
+    return is_integral;
+  }
+
+private:
+  static Eigen::MatrixXcd plane_basis(const Position_lattice& positions, const Texture_lattice& lattice, Eigen::Index number_of_positions)
+  {
+    Eigen::MatrixXcd result(number_of_positions, Eigen::Index(positions.rank()));
+    for(Eigen::Index j = 0; j < result.cols(); ++j)
+      for(Eigen::Index i = 0; i < result.rows(); ++i)
+        result(i, j) = lattice.to_plane(positions.basis[j][i]);
+    return result;
+  }
+
+  // As a real form in the lattice coordinates of the coefficients.
+  Eigen::MatrixXd gram() const
+  {
+    const int r = int(lattice_of_positions_.rank());
+    const Eigen::RowVectorXcd alpha = flat_positions_.adjoint() * basis_ / flat_positions_.squaredNorm();
+    Eigen::MatrixXcd form = energy_ + weight_of_scale * alpha.adjoint() * alpha;
+    form += 1e-13 * form.diagonal().real().sum() / r * Eigen::MatrixXcd::Identity(r, r);
+    Eigen::MatrixXcd complex(r, 2 * r);
+    complex.setZero();
+    for(int j = 0; j < r; ++j)
+    {
+      complex(j, 2 * j) = 1;
+      complex(j, 2 * j + 1) = lattice_.theta();
+    }
+    return (complex.adjoint() * form * complex).real();
+  }
+
+  Eigen::VectorXd real_coefficients(const Coefficients& x) const
+  {
+    Eigen::VectorXd result(2 * x.size());
+    for(int j = 0; j < x.size(); ++j)
+    {
+      const Lattice_coordinates<double> p = lattice_.from_plane(x(j));
+      result(2 * j) = p[0];
+      result(2 * j + 1) = p[1];
+    }
+    return result;
+  }
+
+  void add_candidate(const Lattice_vector& v, const Complex& s, bool is_closest, std::vector<Candidate>& result) const
+  {
+    Candidate c;
+    c.coefficients = lattice_points(v);
+    c.s = s;
+    const Coefficients x = complex_coefficients(c.coefficients);
+    const double scale = std::abs(scale_of(x)) / std::abs(s);
+    if(!(scale > 0.7 && scale < 1.43)) // far from the number of tiles, or all in one point
+      return;
+    c.cost = relative_energy(x) + weight_of_scale * (scale - 1) * (scale - 1);
+    c.is_closest = is_closest;
+    for(Candidate& other : result)
+      if(other.coefficients == c.coefficients)
+      {
+        other.is_closest = other.is_closest || is_closest;
+        return;
+      }
+    result.push_back(std::move(c));
+  }
+
+  static std::vector<Lattice_point> lattice_points(const Lattice_vector& v)
+  {
+    std::vector<Lattice_point> result;
+    for(std::size_t j = 0; j + 1 < v.coefficients.size(); j += 2)
+      result.push_back({{v.coefficients[j], v.coefficients[j + 1]}});
+    return result;
+  }
+
+  static constexpr double weight_of_scale = 1. / 256;
+  static constexpr std::size_t most_enumerated_dimensions = 60, most_nodes = 20000, most_nodes_of_proof = 10000000;
+
+  const Position_lattice& lattice_of_positions_;
+  const Texture_lattice lattice_;
+  const Coefficients flat_positions_;
+  const Eigen::MatrixXcd basis_;               // in the plane
+  const Coefficients flat_coefficients_;
+  const Eigen::MatrixXcd energy_;
+  const Reduced_lattice reduced_;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_POSITION_CHOICE_H

@@ -1,0 +1,557 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Texture rectification (section 6 of Springborn, Schroeder and Pinkall, 2008): a flat layout whose cones have multiples of 2 pi / n is
+// deformed, as little as possible, until its cones are lattice points, and the motions across its cut symmetries of the lattice.
+//
+// What can be admitted is in position_lattice.h, what is chosen in position_choice.h, how the layout follows in laplace_layout.h, and how
+// seams become exact in seamless_layout.h.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_RECTIFICATION_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_RECTIFICATION_H
+
+#include <CGAL/Conformal_equivalence/Cut_graph.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/conformal_distortion.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/laplace_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/meta_polygon.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/position_choice.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/position_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/seamless_layout.h>
+
+#include <CGAL/assertions.h>
+#include <CGAL/number_utils.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// The coordinates in which a seamless layout is given.
+enum class Seamless_coordinates
+{
+  CARTESIAN, ///< of the plane, a tile having the side 1 (squares), or its neighbors at the distance 1 (hexagons)
+  LATTICE    ///< (a, b) for a + b theta, see `Tiling`: for n = 2 and 4 the same; for n = 3 and 6 the coordinates in which seams are exact
+};
+
+namespace internal {
+
+struct Rectification_options
+{
+  double number_of_tiles = 0;        // 0: as few as the distortion allows
+  double maximum_distortion = 1.02;
+  bool is_lattice_coordinates = false;
+};
+
+// The mean and the largest quasi-conformal factor of maps of the faces.
+struct Mean_factor
+{
+  double mean = 1, largest = 1;
+};
+
+template <typename SolverTraits>
+class Rectification
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<double> Triangulation;
+  typedef std::complex<double> Complex;
+  typedef Lattice_coordinates<std::int64_t> Lattice_point;
+  typedef Laplace_layout<double, SolverTraits> Laplace;
+  typedef Position_choice::Coefficients Coefficients;
+  typedef Position_choice::Candidate Candidate;
+  typedef Seamless_layout::Motions Motions;
+  typedef Seamless_layout::Positions Positions;
+
+public:
+  Status status = Status::OK;         // BOUND_NOT_MET: the layout is there nevertheless
+  double amount = 0;
+  std::vector<Index> edges, faces;    // at fault
+
+  Layout<double> layout;
+  Tiling tiling;
+  std::vector<Lattice_point> cone_positions;       // in the first corners
+  std::vector<int> quanta;                         // by transition of `layout`
+  std::vector<Lattice_point> translations;         // by transition of `layout`
+
+  // `flat` is the layout of one surface. Keeps references.
+  Rectification(const Triangulation& t, const Cut_graph& cut, const Layout<double>& flat, const std::vector<Quantized_cone>& cones,
+                const Texture_lattice& lattice, const Rectification_options& options, const SolverTraits& traits)
+    : t_(t), cut_(cut), flat_(flat), cones_(cones), lattice_(lattice), options_(options), traits_(traits),
+      polygon_(t, cut, flat, cones, lattice), seamless_(t, polygon_, lattice_, cones, options.is_lattice_coordinates)
+  {
+    if(polygon_.status != Status::OK)
+    {
+      status = polygon_.status;
+      amount = polygon_.amount;
+      edges = polygon_.edges;
+      return;
+    }
+    normalize();
+    if(!untangle_flat())
+    {
+      refuse_inverted();
+      return;
+    }
+    positions_ = position_lattice(polygon_, cones.size(), lattice);
+    if(!positions_.fits)
+      status = Status::NOT_REPRESENTABLE;
+    else if(positions_.rank() == 0)
+      scale_only();
+    else if(find_choice())
+      deform();
+    else
+      status = Status::SINGULAR_PROBLEM;
+    if(status == Status::OK || status == Status::BOUND_NOT_MET)
+      report();
+  }
+
+  Rectification(const Rectification&) = delete;
+  Rectification& operator=(const Rectification&) = delete;
+
+  // ---- For tests and comparisons
+
+  const Meta_polygon& polygon() const { return polygon_; }
+  const Position_lattice& positions() const { return positions_; }
+  const Position_choice& choice() const { return *choice_; } // if the lattice of positions has a rank
+
+  // The Laplace layout for any coefficients: by vertex, in its first corner; lengths are in units of the root of the area.
+  std::vector<Complex> laplace_layout(const Coefficients& x)
+  {
+    return (*laplace_)(data(choice_->plane_positions(x)));
+  }
+
+  // The corners of the flat layout, with its area 1 and the first cone in the origin.
+  const std::vector<Complex>& normalized_corners() const { return corner_; }
+
+private:
+  // ---- The flat layout
+
+  // Area 1, the first cone in the origin; without a cone, what the first path that turns goes round.
+  void normalize()
+  {
+    corner_.resize(t_.number_of_halfedges());
+    double largest = 0;
+    for(const auto& p : flat_.corner)
+      largest = (std::max)(largest, (std::max)(std::abs(p[0]), std::abs(p[1])));
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    for(Index h = 0; h < corner_.size(); ++h)
+      corner_[h] = Complex(std::scalbn(flat_.corner[h][0], -exponent), std::scalbn(flat_.corner[h][1], -exponent));
+    double area = 0;
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+      area += std::imag(std::conj(corner_[3 * f + 1] - corner_[3 * f]) * (corner_[3 * f + 2] - corner_[3 * f])) / 2;
+    const double side = std::sqrt(area);
+    unit_ = std::scalbn(side, exponent);
+    for(Complex& z : corner_)
+      z /= side;
+    for(auto& path : polygon_.paths)
+      path.translation = Complex(std::scalbn(path.translation.real(), -exponent), std::scalbn(path.translation.imag(), -exponent)) / side;
+    move_origin(origin());
+  }
+
+  Complex origin() const
+  {
+    if(!cones_.empty())
+      return corner_[polygon_.first_corner[cones_.front().vertex]];
+    for(const auto& path : polygon_.paths)
+      if(path.quanta != 0)
+        return path.translation / (1. - lattice_.rotation(path.quanta));
+    return 0;
+  }
+
+  void move_origin(const Complex& origin)
+  {
+    for(Complex& z : corner_)
+      z -= origin;
+    for(auto& path : polygon_.paths)
+      path.translation += (lattice_.rotation(path.quanta) - 1.) * origin;
+  }
+
+  // Straight triangles of the layout that are inverted, as where edges were flipped, are mended first.
+  bool untangle_flat()
+  {
+    std::vector<Lattice_coordinates<double> > translations;
+    for(const auto& path : polygon_.paths)
+      translations.push_back(lattice_.from_plane(path.translation));
+    flat_z_.assign(t_.number_of_vertices(), Lattice_coordinates<double>{{0, 0}});
+    for(Index v = 0; v < flat_z_.size(); ++v)
+      if(!t_.is_isolated_vertex(v))
+        flat_z_[v] = lattice_.from_plane(corner_[polygon_.first_corner[v]]);
+    bool is_positive = true;
+    for(Index f = 0; f < t_.number_of_faces() && is_positive; ++f)
+      is_positive = is_flat_positive(f);
+    Layout<double> ignored;
+    return is_positive || seamless_(polygon_.values(translations), flat_z_, ignored);
+  }
+
+  bool is_flat_positive(Index f) const { return is_left_turn(flat_.corner[3 * f], flat_.corner[3 * f + 1], flat_.corner[3 * f + 2]); }
+
+  // The layout turned and scaled.
+  Positions scaled_flat(const Complex& s) const
+  {
+    Positions z(flat_z_.size());
+    for(std::size_t v = 0; v < z.size(); ++v)
+      z[v] = lattice_.from_plane(s * lattice_.to_plane(flat_z_[v]));
+    return z;
+  }
+
+  // ---- Energy
+
+  typename Laplace::Data data(const Coefficients& positions) const
+  {
+    typename Laplace::Data result;
+    std::vector<Lattice_coordinates<double> > translations;
+    for(std::size_t p = 0; p < polygon_.paths.size(); ++p)
+      translations.push_back(lattice_.from_plane(positions(cones_.size() + p)));
+    for(const auto& motion : polygon_.values(translations))
+      result.translation.push_back(lattice_.to_plane(motion.translation));
+    result.fixed.assign(positions.data(), positions.data() + cones_.size());
+    if(result.fixed.size() < fixed_.size())
+      result.fixed.push_back(0);
+    return result;
+  }
+
+  // Sets up the Laplace layout, and the choice among positions with its energy.
+  bool find_choice()
+  {
+    Coefficients flat_positions(cones_.size() + polygon_.paths.size());
+    for(std::size_t i = 0; i < cones_.size(); ++i)
+      flat_positions(i) = corner_[polygon_.first_corner[cones_[i].vertex]];
+    for(std::size_t p = 0; p < polygon_.paths.size(); ++p)
+      flat_positions(cones_.size() + p) = polygon_.paths[p].translation;
+
+    for(const Quantized_cone& cone : cones_)
+      fixed_.push_back(cone.vertex);
+    bool is_turned = !cones_.empty();
+    for(const auto& path : polygon_.paths)
+      is_turned = is_turned || path.quanta != 0;
+    if(!is_turned)
+      fixed_.push_back(t_.target(0));
+    laplace_ = std::make_unique<Laplace>(t_, corner_, polygon_, lattice_, fixed_, traits_);
+    if(!laplace_->factorize())
+      return false;
+    choice_ = std::make_unique<Position_choice>(positions_, lattice_, flat_positions, [&](const Eigen::MatrixXcd& basis) { return energy(basis); });
+    return choice_->is_valid();
+  }
+
+  // The Hermitian form of the energies for positions that are combinations of the columns; not finite where these cannot be found.
+  Eigen::MatrixXcd energy(const Eigen::MatrixXcd& basis)
+  {
+    const Eigen::Index r = basis.cols();
+    std::vector<std::vector<Complex> > forces(r), responses(r);
+    for(Eigen::Index j = 0; j < r; ++j)
+    {
+      const typename Laplace::Data d = data(basis.col(j));
+      const std::vector<Complex> z = (*laplace_)(d);
+      if(z.empty())
+        return Eigen::MatrixXcd::Constant(r, r, std::numeric_limits<double>::quiet_NaN());
+      forces[j] = laplace_->forces(d);
+      responses[j] = laplace_->responses(d, z);
+    }
+    Eigen::MatrixXcd result(r, r);
+    for(Eigen::Index i = 0; i < r; ++i)
+      for(Eigen::Index j = 0; j < r; ++j)
+      {
+        Complex sum = 0;
+        for(std::size_t k = 0; k < forces[i].size(); ++k)
+          sum += std::conj(forces[i][k]) * responses[j][k];
+        result(i, j) = sum;
+      }
+    return (result + result.adjoint()) / 2.;
+  }
+
+  // ---- Choice
+
+  void deform()
+  {
+    if(options_.number_of_tiles > 0)
+      deform_to_number_of_tiles();
+    else
+      deform_within_bound();
+  }
+
+  // If triangles are inverted whatever candidate is taken, on a finer grid.
+  void deform_to_number_of_tiles()
+  {
+    const std::size_t most_tried = 6;
+    for(int finer = 0; finer < 8; ++finer)
+    {
+      const std::vector<Candidate> c = choice_->candidates(std::ldexp(options_.number_of_tiles, finer));
+      for(std::size_t i = 0; i < c.size() && i < most_tried; ++i)
+        if(try_candidate(c[i]))
+          return prove(c[i]);
+    }
+    refuse_inverted();
+  }
+
+  // As few tiles as the bound on the mean distortion allows.
+  void deform_within_bound()
+  {
+    const std::size_t most_tried = 2;
+    const double most_tiles = 1e9;
+    bool is_found = false;
+    for(double tiles = 1; tiles < most_tiles; tiles *= std::sqrt(2.))
+    {
+      const std::vector<Candidate> c = choice_->candidates(tiles);
+      for(std::size_t i = 0; i < c.size() && i < most_tried; ++i)
+      {
+        if(choice_->expected_distortion(choice_->complex_coefficients(c[i].coefficients)) > 1 + 1.5 * (options_.maximum_distortion - 1) + 1e-12)
+          break;
+        if(!try_candidate(c[i]))
+          continue;
+        is_found = true;
+        if(is_within_bound())
+          prove(c[i]);
+        if(is_within_bound())
+          return;
+      }
+    }
+    if(!is_found)
+      return refuse_inverted();
+    status = Status::BOUND_NOT_MET;
+    amount = tiling.mean_distortion;
+  }
+
+  // Looks longer than before for positions closer to what was aimed at than those that were taken; most often proves that there are none.
+  void prove(const Candidate& taken)
+  {
+    if(taken.is_closest)
+      return;
+    const Candidate closest = choice_->closest(taken);
+    if(closest.coefficients == taken.coefficients)
+      tiling.is_closest = closest.is_closest;
+    else
+      try_candidate(closest); // what is there is kept if this one inverts triangles
+  }
+
+  bool is_within_bound() const { return tiling.mean_distortion <= (std::max)(options_.maximum_distortion, 1 + 1e-9); }
+
+  void refuse_inverted()
+  {
+    status = Status::NOT_INJECTIVE;
+    faces = seamless_.inverted();
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  }
+
+  // ---- Positions
+
+  // Returns whether all triangles are positive.
+  bool try_candidate(const Candidate& c)
+  {
+    const Coefficients x = choice_->complex_coefficients(c.coefficients);
+    const Complex s = choice_->scale_of(x);
+    const std::vector<Complex> moved = (*laplace_)(data(choice_->plane_positions(x - s * choice_->flat_coefficients())));
+    if(moved.empty())
+      return false;
+    const std::vector<Lattice_point> positions = choice_->integral_positions(c.coefficients);
+    Positions z = scaled_flat(s), unmended(z.size());
+    for(std::size_t v = 0; v < z.size(); ++v)
+    {
+      const Lattice_coordinates<double> by = lattice_.from_plane(moved[v]);
+      z[v] = {{z[v][0] + by[0], z[v][1] + by[1]}};
+      if(!t_.is_isolated_vertex(Index(v)))
+        unmended[v] = lattice_.from_plane(s * corner_[polygon_.first_corner[v]] + moved[v]);
+    }
+    const Motions motion = motions(positions);
+    if(!finish(std::move(z), positions, motion, s))
+      return false;
+    const Mean_factor deformation = deformation_factor(motion, unmended);
+    tiling.is_closest = c.is_closest;
+    tiling.mean_distortion = deformation.mean;
+    tiling.maximum_distortion = deformation.largest;
+    return true;
+  }
+
+  // The motions across the cut, exactly.
+  Motions motions(const std::vector<Lattice_point>& integral) const
+  {
+    const std::vector<Lattice_point> translation(integral.begin() + cones_.size(), integral.end());
+    const std::vector<Meta_polygon::Values<std::int64_t> > exact = polygon_.values(translation);
+    Motions result(exact.size());
+    for(std::size_t m = 0; m < exact.size(); ++m)
+      result[m] = {exact[m].quanta, {{double(exact[m].translation[0]), double(exact[m].translation[1])}}};
+    return result;
+  }
+
+  // Nothing need be deformed: the scale alone is free.
+  void scale_only()
+  {
+    const double tiles = options_.number_of_tiles > 0 ? options_.number_of_tiles : 64;
+    const double s = std::sqrt(tiles * lattice_.area_of_tile());
+    const std::vector<Lattice_point> origin(cones_.size() + polygon_.paths.size(), Lattice_point{{0, 0}});
+    if(!finish(scaled_flat(s), origin, motions(origin), s))
+      refuse_inverted();
+  }
+
+  // Rounds the positions where motions must be exact, makes the corners, and judges them.
+  bool finish(Positions z, const std::vector<Lattice_point>& integral, const Motions& motion, const Complex& s)
+  {
+    for(std::size_t i = 0; i < cones_.size(); ++i)
+      z[cones_[i].vertex] = {{double(integral[i][0]), double(integral[i][1])}};
+    Layout<double> result;
+    if(!seamless_(motion, z, result))
+      return false;
+    translation_of_path_.assign(integral.begin() + cones_.size(), integral.end());
+    CGAL_postcondition(seamless_.is_seamless(motion, z, translation_of_path_));
+    layout = std::move(result);
+    cone_positions.assign(integral.begin(), integral.begin() + cones_.size());
+    scale_ = s;
+    return true;
+  }
+
+  // ---- What is told of the layout that was taken
+
+  void report()
+  {
+    layout.length_error = flat_.length_error;
+    find_transitions();
+    measure();
+  }
+
+  void find_transitions()
+  {
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+    {
+      const Index h = t_.edge_halfedge(e);
+      if(!cut_[e] || t_.is_border(h))
+        continue;
+      const auto motion = polygon_.after(Meta_polygon::Values<std::int64_t>(), polygon_.crossing(h), translation_of_path_);
+      const Complex rotation = lattice_.rotation(motion.quanta), by = lattice_.to_plane(motion.translation);
+      layout.transitions.push_back({h, {{rotation.real(), rotation.imag()}}, {{by.real(), by.imag()}}});
+      quanta.push_back(motion.quanta);
+      translations.push_back(motion.translation);
+    }
+  }
+
+  // ---- Distortion
+
+  void measure()
+  {
+    tiling.symmetry = lattice_.symmetry();
+    tiling.scale = std::abs(scale_) / unit_;
+    tiling.rotation = std::remainder(std::arg(scale_), 2 * CGAL_PI);
+    std::vector<Face_distortion> before, after;
+    double area = 0;
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+    {
+      const UV_corners image = uv([&](Index h) { return in_plane(h); }, f);
+      const Triangle_frame given = given_frame(f);
+      if(!given.is_degenerate())
+      {
+        before.push_back({given.area(), Scaled_number(), quasi_conformal_factor(given, uv([&](Index h) { return corner_[h]; }, f))});
+        after.push_back({given.area(), Scaled_number(), quasi_conformal_factor(given, image)});
+      }
+      area += std::imag(std::conj(in_plane(3 * f + 1) - in_plane(3 * f)) * (in_plane(3 * f + 2) - in_plane(3 * f))) / 2;
+    }
+    tiling.number_of_tiles = area / lattice_.area_of_tile();
+    tiling.mean_factor_before = mean_factor(before).mean;
+    tiling.mean_factor = mean_factor(after).mean;
+  }
+
+  // Of the map from the flat surface, where its straight triangles are positive.
+  Mean_factor deformation_factor(const Motions& motion, const Positions& z) const
+  {
+    const auto image = [&](Index h) { return lattice_.to_plane(polygon_.apply(motion[polygon_.motion_of_corner[h]], z[t_.target(h)])); };
+    std::vector<Face_distortion> result;
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+    {
+      const Triangle_frame given = given_frame(f);
+      if(!given.is_degenerate() && is_flat_positive(f))
+        result.push_back({given.area(), Scaled_number(), quasi_conformal_factor(plane_frame(f), uv(image, f))});
+    }
+    return mean_factor(result);
+  }
+
+  // Of the triangle of the mesh.
+  Triangle_frame given_frame(Index f) const
+  {
+    return frame_from_lengths({{t_.halfedge_length(3 * f + 2), t_.halfedge_length(3 * f), t_.halfedge_length(3 * f + 1)}});
+  }
+
+  Complex in_plane(Index h) const
+  {
+    return options_.is_lattice_coordinates ? lattice_.to_plane(layout.corner[h]) : Complex(layout.corner[h][0], layout.corner[h][1]);
+  }
+
+  template <typename Corner>
+  static UV_corners uv(Corner corner, Index f)
+  {
+    const Complex p = corner(3 * f), q = corner(3 * f + 1), r = corner(3 * f + 2);
+    return {{UV_point(p.real(), p.imag()), UV_point(q.real(), q.imag()), UV_point(r.real(), r.imag())}};
+  }
+
+  // Of the flat triangle.
+  Triangle_frame plane_frame(Index f) const
+  {
+    std::array<Space_vector, 3> e;
+    for(Index k = 0; k < 3; ++k)
+    {
+      const Complex d = corner_[3 * f + (k + 2) % 3] - corner_[3 * f + (k + 1) % 3];
+      e[k] = {{d.real(), d.imag(), 0}};
+    }
+    return frame_from_edge_vectors(e);
+  }
+
+  // Weighted by the areas in the mesh.
+  static Mean_factor mean_factor(const std::vector<Face_distortion>& faces)
+  {
+    Mean_factor result;
+    if(faces.empty())
+      return result;
+    const Scaled_number total = total_area(faces, [](const Face_distortion& f) { return f.area; });
+    double excess = 0;
+    for(const Face_distortion& f : faces)
+    {
+      const double weight = scaled_to(f.area, total.exponent) / total.mantissa;
+      if(!(weight > 0) || std::isnan(f.factor)) // a needle without an area in the plane
+        continue;
+      excess += weight * (f.factor - 1);
+      result.largest = (std::max)(result.largest, f.factor);
+    }
+    result.mean = 1 + excess;
+    return result;
+  }
+
+  const Triangulation& t_;
+  const Cut_graph& cut_;
+  const Layout<double>& flat_;
+  const std::vector<Quantized_cone>& cones_;
+  const Texture_lattice lattice_;
+  const Rectification_options options_;
+  const SolverTraits traits_;
+  Meta_polygon polygon_;
+  Seamless_layout seamless_;
+
+  std::vector<Complex> corner_;       // of the flat layout, normalized
+  Positions flat_z_;                  // by vertex, in its first corner: the same, without inverted triangles
+  double unit_ = 1;                   // by which it was divided
+  Position_lattice positions_;
+  Complex scale_ = 1;                 // by which the normalized layout was turned and scaled, in the layout taken
+  std::vector<Lattice_point> translation_of_path_; // the same
+  std::vector<Index> fixed_;
+  std::unique_ptr<Laplace> laplace_;
+  std::unique_ptr<Position_choice> choice_;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_RECTIFICATION_H

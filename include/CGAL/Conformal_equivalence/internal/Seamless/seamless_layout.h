@@ -1,0 +1,162 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The last step of a seamless layout: from positions of the vertices to corners whose seams are exact, and triangles that are positive.
+//
+// Positions of vertices on the cut are rounded to a grid so coarse that the motions across it, rotations of lattice coordinates and integers, are free of
+// rounding. Orientations are decided after that. Triangles that are inverted, if they are few, are mended by moving vertices nearby.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_LAYOUT_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_LAYOUT_H
+
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/meta_polygon.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/relaxation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+class Seamless_layout
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<double> Triangulation;
+  typedef std::complex<double> Complex;
+
+public:
+  typedef Lattice_coordinates<std::int64_t> Lattice_point;
+  typedef std::vector<Meta_polygon::Values<double> > Motions;      // by number of the motion
+  typedef std::vector<Lattice_coordinates<double> > Positions;     // by vertex, in its first corner
+
+  // Cones are never moved. Keeps references.
+  Seamless_layout(const Triangulation& t, const Meta_polygon& polygon, const Texture_lattice& lattice, const std::vector<Quantized_cone>& cones,
+                  bool is_lattice_coordinates)
+    : t_(t), polygon_(polygon), lattice_(lattice), cones_(cones), is_lattice_coordinates_(is_lattice_coordinates)
+  {}
+
+  // The triangles that were not positive when something was last laid out in vain, some of them twice.
+  const std::vector<Index>& inverted() const { return inverted_; }
+
+  // The corners; the positions are what has become of them. Returns whether all triangles are positive.
+  bool operator()(const Motions& motion, Positions& z, Layout<double>& result)
+  {
+    return lay_out(motion, z, result) || untangle(motion, z, result);
+  }
+
+  // Whether the motions take each side of the cut exactly to the other; in lattice coordinates.
+  bool is_seamless(const Motions& motions, const Positions& z, const std::vector<Lattice_point>& translation) const
+  {
+    const auto corner = [&](Index h) { return polygon_.apply(motions[polygon_.motion_of_corner[h]], z[t_.target(h)]); };
+    std::vector<Lattice_coordinates<double> > by;
+    for(const Lattice_point& p : translation)
+      by.push_back({{double(p[0]), double(p[1])}});
+    for(std::size_t p = 0; p < polygon_.paths.size(); ++p)
+      for(Index h : polygon_.paths[p].halfedges)
+      {
+        const auto motion = polygon_.after(Meta_polygon::Values<double>(), Meta_polygon::Crossing{Index(p), true}, by);
+        if(polygon_.apply(motion, corner(h)) != corner(t_.previous(t_.twin(h))) || polygon_.apply(motion, corner(t_.previous(h))) != corner(t_.twin(h)))
+          return false;
+      }
+    return true;
+  }
+
+private:
+  // Makes the corners, with positions rounded. Returns whether all triangles are positive.
+  bool lay_out(const Motions& motion, Positions& z, Layout<double>& result)
+  {
+    snap(motion, z);
+    result.corner.resize(t_.number_of_halfedges());
+    for(Index h = 0; h < result.corner.size(); ++h)
+    {
+      result.corner[h] = polygon_.apply(motion[polygon_.motion_of_corner[h]], z[t_.target(h)]);
+      if(is_lattice_coordinates_)
+        continue;
+      const Complex w = lattice_.to_plane(result.corner[h]);
+      result.corner[h] = {{w.real(), w.imag()}};
+    }
+    find_inverted(result);
+    return inverted_.empty();
+  }
+
+  // Moves vertices around triangles that are inverted, few of them, until none is.
+  bool untangle(const Motions& motion, Positions& z, Layout<double>& result)
+  {
+    if(inverted_.size() > 10 + t_.number_of_faces() / 100)
+      return false;
+    const std::vector<Index> first_inverted = inverted_;
+    std::vector<char> is_fixed(t_.number_of_vertices(), 0);
+    for(const Quantized_cone& cone : cones_)
+      is_fixed[cone.vertex] = 1;
+    for(int rings = 0; rings <= most_rings; ++rings)
+    {
+      Positions relaxed = z;
+      const Relaxation relaxation(t_, polygon_, lattice_, motion, is_fixed, inverted_, rings);
+      for(int centred = 0; centred < 3; ++centred)
+      {
+        centred == 0 ? relaxation.average(relaxed) : relaxation.centre(relaxed);
+        if(!lay_out(motion, relaxed, result))
+          continue;
+        z = std::move(relaxed);
+        return true;
+      }
+      inverted_.insert(inverted_.end(), first_inverted.begin(), first_inverted.end());
+    }
+    return false;
+  }
+
+  // To multiples of a power of two, so coarse that there and in the images all coordinates have a few bits to spare.
+  void snap(const Motions& motion, Positions& z) const
+  {
+    std::vector<char> is_on_seam(z.size(), 0);
+    double largest = 1;
+    for(Index h = 0; h < t_.number_of_halfedges(); ++h)
+    {
+      const Index m = polygon_.motion_of_corner[h], v = t_.target(h);
+      if(m == 0)
+        continue;
+      is_on_seam[v] = 1;
+      for(const Lattice_coordinates<double>& p : {z[v], motion[m].translation, polygon_.apply(motion[m], z[v])})
+        largest = (std::max)(largest, (std::max)(std::abs(p[0]), std::abs(p[1])));
+    }
+    const int bits = std::numeric_limits<double>::digits - 3 - (std::ilogb(largest) + 1);
+    for(Index v = 0; v < z.size(); ++v)
+      if(is_on_seam[v])
+        for(double& x : z[v])
+          x = std::scalbn(std::nearbyint(std::scalbn(x, bits)), -bits);
+  }
+
+  void find_inverted(const Layout<double>& result)
+  {
+    inverted_.clear();
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+      if(!is_left_turn(result.corner[3 * f], result.corner[3 * f + 1], result.corner[3 * f + 2]))
+        inverted_.push_back(f);
+  }
+
+  static constexpr int most_rings = 6;
+
+  const Triangulation& t_;
+  const Meta_polygon& polygon_;
+  const Texture_lattice& lattice_;
+  const std::vector<Quantized_cone>& cones_;
+  const bool is_lattice_coordinates_;
+  std::vector<Index> inverted_;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_LAYOUT_H

@@ -1,0 +1,611 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Newton's method for the minimizer of E (section 3.1 of Springborn, Schroeder and
+// Pinkall, 2008), in double. With r = Theta~ - Theta^ = -2 grad E, a Newton step d
+// solves A d = r, where A = 2 Hess E.
+//
+// Conformal change barely changes angles, hence barely A: one factor of A, taken
+// at the first metric, preconditions all later steps, which are solved only as
+// accurately as the step deserves (inexact Newton). The value of E is never
+// needed: it is too large to tell small steps apart. What is needed of it along a
+// step is its derivative, -r(u + t d).d / 2.
+//
+// Where there are lower bounds b on u, a step is the minimizer of the quadratic model of E
+// among the d >= b - u (sequential quadratic programming): what is minimized is convex, so that such a step
+// goes downhill too, and the active bounds are soon those of the solution. The quadratic program is solved by
+// block principal pivoting (J. J. Judice and F. M. Pires, 1994): the primal-dual active-set method, which ends after a
+// few rounds, made finite for every positive definite matrix.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NEWTON_METHOD_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NEWTON_METHOD_H
+
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+struct Newton_options
+{
+  double tolerance = 1e-12;
+  std::size_t number_of_iterations = 100;
+  Newton_strategy strategy = Newton_strategy::LINE_SEARCH;
+  bool is_careful = false; // where edges are flipped on the way: steps are bounded, and outliers are relaxed
+};
+
+// The bounds u >= b. In what rests on its bounds, nothing else keeps u from going down to minus infinity,
+// where E decreases steadily; so at least one bound is active there.
+struct Lower_bounds
+{
+  typedef std::uint32_t Index;
+  Vertex_vector bound;               // by vertex, minus infinity where there is none; empty if there is none at all
+  std::vector<Index> resting;        // by vertex: the component if that rests on its bounds, else null_index
+  Index number_of_components = 0;
+
+  bool empty() const { return bound.empty(); }
+  bool has(Index v) const { return bound[v] > -std::numeric_limits<double>::infinity(); }
+  bool is_resting(Index v) const { return resting[v] != Intrinsic_triangulation<>::null_index; }
+
+  // Moves every component that rests on its bounds down or up to them. Returns whether anything was moved.
+  bool settle(Vertex_vector& u) const
+  {
+    const double infinity = std::numeric_limits<double>::infinity();
+    Vertex_vector rise(number_of_components, -infinity);
+    for(Index v = 0; v < u.size(); ++v)
+      if(is_resting(v))
+        rise[resting[v]] = (std::max)(rise[resting[v]], bound[v] - u[v]);
+    bool is_moved = false;
+    for(Index v = 0; v < u.size(); ++v)
+      if(is_resting(v) && rise[resting[v]] != 0 && std::isfinite(rise[resting[v]]))
+      {
+        const double moved = u[v] + rise[resting[v]];
+        const double rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(u[v]) + std::abs(moved));
+        u[v] = moved - bound[v] <= rounding ? bound[v] : moved;
+        is_moved = true;
+      }
+    return is_moved;
+  }
+
+  // Of every component that rests on its bounds, the bounded vertex with the largest value.
+  template <typename Value>
+  std::vector<Index> largest(Value value) const
+  {
+    const Index none = Intrinsic_triangulation<>::null_index;
+    std::vector<Index> result(number_of_components, none);
+    for(Index v = 0; v < bound.size(); ++v)
+      if(is_resting(v) && has(v) && (result[resting[v]] == none || value(v) > value(result[resting[v]])))
+        result[resting[v]] = v;
+    result.erase(std::remove(result.begin(), result.end(), none), result.end());
+    return result;
+  }
+};
+
+template <typename Energy, typename SolverTraits, typename Visitor>
+class Newton_method
+{
+public:
+  Newton_method(Energy& energy, Laplacian_solver<SolverTraits>& solver,
+                const Vertex_vector& target, const Newton_options& options,
+                Statistics& statistics, Visitor& visitor, const Lower_bounds& bounds = Lower_bounds())
+    : energy_(energy), solver_(solver), target_(target), bounds_(bounds), options_(options),
+      statistics_(statistics), visitor_(visitor)
+  {}
+
+  // Improves u until the residual is within the tolerance or the rounding floor.
+  // Returns OK, ITERATIONS_EXHAUSTED, SINGULAR_PROBLEM or STOPPED_BY_VISITOR.
+  Status operator()(Vertex_vector& u)
+  {
+    if(!lift(u) || !evaluate(u, residual_))
+      return Status::ITERATIONS_EXHAUSTED;
+    hold_active(u, 0);
+    for(std::size_t iteration = 0; ; ++iteration)
+    {
+      const double size = violation(u);
+      record(iteration, size);
+      if(size <= (std::max)(options_.tolerance, rounding_floor()))
+        return Status::OK;
+      if(is_careful() && is_stuck_at_floor(iteration, size, u))
+        return Status::OK;
+      if(!visitor_.go_further())
+        return Status::STOPPED_BY_VISITOR;
+      if(iteration == options_.number_of_iterations || (is_careful() && (has_stopped() || is_relaxing_in_vain())))
+        return Status::ITERATIONS_EXHAUSTED;
+      if(!solver_.has_factor() && !solver_.factorize(energy_.weights()))
+        return Status::SINGULAR_PROBLEM;
+      const bool stepped = options_.strategy == Newton_strategy::LINE_SEARCH ? line_search_step(u)
+                                                                            : trust_region_step(u);
+      if(!stepped)
+        return size <= 10 * rounding_floor() ? Status::OK : Status::ITERATIONS_EXHAUSTED;
+      ++statistics_.number_of_iterations;
+      if(!bounds_.empty() && bounds_.settle(u))
+        evaluate(u, residual_);
+    }
+  }
+
+private:
+  // (where bounds are active, residuals may grow on the way)
+  bool is_careful() const { return options_.is_careful && bounds_.empty(); }
+
+  // Has the residual been the same for a while? Where triangles are not broken it is not, unless steps come to nothing by rounding.
+  bool has_stopped() const
+  {
+    const std::vector<double>& history = statistics_.residuals;
+    const std::size_t a_while = 10;
+    if(history.size() <= a_while)
+      return false;
+    const auto extremes = std::minmax_element(history.end() - a_while - 1, history.end());
+    return *extremes.second - *extremes.first <= 1e-6 * *extremes.second;
+  }
+
+  // Where there is a solution within reach, each vertex is as a rule evaluated by itself at most 30 times, and 3 times in a step;
+  // among needles of which the minimum is not to be found, thousands of times.
+  bool is_relaxing_in_vain() const
+  {
+    if constexpr(Energy::has_flips)
+      return double(energy_.number_of_probes()) > 1000 + 10. * double(options_.number_of_iterations) * double(target_.size());
+    return false;
+  }
+
+  // Near the rounding floor, however high that is, and without gain for a while: what is left to do is up to the wider type.
+  bool is_stuck_at_floor(std::size_t iteration, double size, const Vertex_vector& u)
+  {
+    if(size <= least_ / 2)
+    {
+      least_ = size;
+      last_gain_ = iteration;
+    }
+    if(iteration < last_gain_ + 5 || size > 1)
+      return false;
+    statistics_.residual_floor = floor_ = measured_floor();
+    return size <= (std::max)(10., 4 * largest_entry(u)) * floor_; // (u itself is rounded)
+  }
+
+  // r at u; false if u is out of the range of double.
+  bool evaluate(const Vertex_vector& u, Vertex_vector& r)
+  {
+    ++statistics_.number_of_evaluations;
+    const bool is_finite = energy_.evaluate(u);
+    r.resize(u.size());
+    for(std::size_t v = 0; v < u.size(); ++v)
+      r[v] = solver_.graph().is_free(std::uint32_t(v)) ? energy_.angle_sums()[v] - target_[v] : 0;
+    return is_finite;
+  }
+
+  // How far u is from the minimum: the largest entry of r, of which only positive ones count where a bound is active.
+  double violation(const Vertex_vector& u) const
+  {
+    if(bounds_.empty())
+      return largest_entry(residual_);
+    double result = 0;
+    for(std::uint32_t v = 0; v < u.size(); ++v)
+      result = (std::max)(result, is_at_bound(u, v, 0) ? residual_[v] : std::abs(residual_[v]));
+    return result;
+  }
+
+  bool is_at_bound(const Vertex_vector& u, std::uint32_t v, double distance) const
+  {
+    return u[v] - bounds_.bound[v] <= distance;
+  }
+
+  // Holds the vertices at their bounds, or as near to them, that are not pulled off, and at least one of each component
+  // that rests on its bounds.
+  void hold_active(const Vertex_vector& u, double distance)
+  {
+    if(bounds_.empty())
+      return;
+    const double infinity = std::numeric_limits<double>::infinity();
+    active_.assign(u.size(), 0);
+    for(std::uint32_t v = 0; v < u.size(); ++v)
+      active_[v] = is_at_bound(u, v, distance) && residual_[v] <= 0;
+    for(const std::uint32_t v : bounds_.largest([&](std::uint32_t w) { return active_[w] ? infinity : bounds_.bound[w] - u[w]; }))
+      active_[v] = 1;
+    solver_.hold(active_);
+  }
+
+  // Makes u satisfy the bounds, by a change that is as harmonic as can be.
+  bool lift(Vertex_vector& u)
+  {
+    if(bounds_.empty())
+      return true;
+    bounds_.settle(u);
+    bool is_feasible = true;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      is_feasible = is_feasible && u[v] >= bounds_.bound[v];
+    if(is_feasible)
+      return true;
+    if(!evaluate(u, residual_))
+      return false;
+    residual_.assign(u.size(), 0.);
+    hold_active(u, 0);
+    Vertex_vector d;
+    if(!bounded_step(u, 1e-3, d))
+      return false;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      u[v] = (std::max)(u[v] + d[v], bounds_.bound[v]);
+    return true;
+  }
+
+  // Below this a residual cannot be told from rounding. It is of interest, and
+  // hardly changes any more, when the residual has become small.
+  double rounding_floor()
+  {
+    if(floor_ == 0 && statistics_.residual <= 1e-4)
+      floor_ = measured_floor();
+    return floor_;
+  }
+
+  double measured_floor() const
+  {
+    double largest = 0;
+    const std::vector<double> sensitivity = energy_.sensitivities();
+    for(std::size_t v = 0; v < sensitivity.size(); ++v)
+      if(solver_.graph().is_free(std::uint32_t(v)))
+        largest = (std::max)(largest, sensitivity[v]);
+    return 4 * std::numeric_limits<double>::epsilon() * largest;
+  }
+
+  void record(std::size_t iteration, double size)
+  {
+    statistics_.residuals.push_back(size);
+    statistics_.residual = size;
+    statistics_.residual_floor = rounding_floor();
+    visitor_.on_iteration(iteration, size);
+  }
+
+  // How accurately the next step is solved for: an error of the step shows as an
+  // error of the next residual of that relative size, and the quadratic
+  // convergence of exact steps is not to be spoiled; nothing beyond the tolerance
+  // is of use.
+  double forcing_term() const
+  {
+    const std::vector<double>& history = statistics_.residuals;
+    const double size = history.back();
+    const double gain = history.size() < 2 ? 1 : size / history[history.size() - 2];
+    return (std::min)(1e-2, (std::max)(0.1 * gain * gain, 0.1 * options_.tolerance / size));
+  }
+
+  // A step that points downhill: by preconditioned conjugate gradients with the kept factor, or with
+  // a new one if the kept one has become a bad approximation.
+  bool newton_direction(const Vertex_vector& u, Vertex_vector& d)
+  {
+    const double eta = forcing_term();
+    if(!bounds_.empty())
+      return (bounded_step(u, eta, d) && dot(residual_, d) > 0) || (bounded_step(u, 1e-6 * eta, d) && dot(residual_, d) > 0);
+    return solve_linear(residual_, eta, d)
+        && (dot(residual_, d) > 0 || (solver_.precondition(residual_, d) && dot(residual_, d) > 0));
+  }
+
+  // A d = b. Returns whether there was a factor for it.
+  bool solve_linear(const Vertex_vector& b, double eta, Vertex_vector& d)
+  {
+    const std::size_t few = 15, many = 200;
+    bool converged = false;
+    std::size_t count = solver_.conjugate_gradients(energy_.weights(), b, eta, few, d, converged);
+    statistics_.number_of_linear_iterations += count;
+    if(converged)
+      return true;
+    if(!solver_.factorize(energy_.weights()))
+      return false;
+    count = solver_.conjugate_gradients(energy_.weights(), b, eta, many, d, converged);
+    statistics_.number_of_linear_iterations += count;
+    return true;
+  }
+
+  // The minimizer of d.A d / 2 - r.d among the d >= b - u: with f = A d - r, the solution of f = 0 where d > b - u, and f >= 0
+  // where d = b - u. Beginning with the vertices held, those that violate one or the other change sides.
+  bool bounded_step(const Vertex_vector& u, double eta, Vertex_vector& d)
+  {
+    const int most = 200;
+    std::size_t least = (std::numeric_limits<std::size_t>::max)();
+    int patience = 10;
+    for(int round = 0; round < most; ++round)
+    {
+      Vertex_vector f;
+      double error = 0;
+      if(!solve_held(u, eta, d, f, error))
+        return false;
+      const std::vector<std::uint32_t> wrong = on_wrong_side(u, d, f, error);
+      if(wrong.empty())
+        break;
+      patience = wrong.size() < least ? 10 : patience - 1;
+      least = (std::min)(least, wrong.size());
+      for(std::size_t i = patience >= 0 ? 0 : wrong.size() - 1; i < wrong.size(); ++i)
+        active_[wrong[i]] = !active_[wrong[i]];
+    }
+    for(std::size_t v = 0; v < u.size(); ++v)
+      d[v] = (std::max)(d[v], bounds_.bound[v] - u[v]);
+    solver_.hold(active_);
+    return true;
+  }
+
+  // d = b - u where held, f = 0 elsewhere up to `error`.
+  bool solve_held(const Vertex_vector& u, double eta, Vertex_vector& d, Vertex_vector& f, double& error)
+  {
+    Vertex_vector held_step(u.size(), 0.);
+    for(std::size_t v = 0; v < u.size(); ++v)
+      if(active_[v])
+        held_step[v] = bounds_.bound[v] - u[v];
+    solver_.hold(active_);
+    Vertex_vector b = solver_.graph().product(energy_.weights(), held_step);
+    for(std::size_t v = 0; v < u.size(); ++v)
+      b[v] = residual_[v] - b[v];
+    solver_.graph().clear_fixed(b);
+    if(!solve_linear(b, eta, d))
+      return false;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      d[v] += held_step[v];
+    solver_.hold_none();
+    f = solver_.graph().product(energy_.weights(), d);
+    for(std::size_t v = 0; v < u.size(); ++v)
+      f[v] -= residual_[v];
+    error = 2 * eta * largest_entry(b) + 0.1 * options_.tolerance;
+    return true;
+  }
+
+  // In a component that rests on its bounds, the f of the vertices held have a positive sum: the largest one is right.
+  std::vector<std::uint32_t> on_wrong_side(const Vertex_vector& u, const Vertex_vector& d, const Vertex_vector& f, double error) const
+  {
+    std::vector<char> is_right(u.size(), 0);
+    const double infinity = std::numeric_limits<double>::infinity();
+    for(const std::uint32_t v : bounds_.largest([&](std::uint32_t w) { return active_[w] ? f[w] : -infinity; }))
+      is_right[v] = active_[v];
+    std::vector<std::uint32_t> result;
+    for(std::uint32_t v = 0; v < u.size(); ++v)
+      if(bounds_.has(v) && !is_right[v] && (active_[v] ? f[v] < -error : d[v] < bounds_.bound[v] - u[v]))
+        result.push_back(v);
+    return result;
+  }
+
+  // u + t d, not below the bounds.
+  void step(const Vertex_vector& u, double t, const Vertex_vector& d, Vertex_vector& trial) const
+  {
+    for(std::size_t v = 0; v < u.size(); ++v)
+      trial[v] = u[v] + t * d[v];
+    if(bounds_.empty())
+      return;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      trial[v] = active_[v] && t == 1 ? bounds_.bound[v] : (std::max)(trial[v], bounds_.bound[v]);
+  }
+
+  // How steeply E may rise at the end of a step, relative to its fall at the start. Where nothing was gained for a while, not
+  // at all: then E, which is convex, is lower than at the start for certain.
+  double tolerable_rise() const
+  {
+    if(!is_careful())
+      return 0.5;
+    return statistics_.residuals.size() > last_gain_ + 10 && statistics_.residual > 0.1 ? 0 : 0.1;
+  }
+
+  // Goes along d as far as the derivative of E has not become so much as half as
+  // large upwards as it was downwards at the start. Where triangles are broken the
+  // Hessian may be singular, and d useless; from then on, until no triangle
+  // is broken any more, a trust region tells how far to go.
+  bool line_search_step(Vertex_vector& u)
+  {
+    is_lost_ = is_lost_ && !energy_.broken_faces().empty();
+    if(is_lost_)
+      return trust_region_step(u);
+    Vertex_vector d;
+    const double far = 10; // in u
+    if(!newton_direction(u, d) || (!energy_.broken_faces().empty() && !(largest_entry(d) <= far)))
+      return begin_trust_region(u);
+    const double slope = dot(residual_, d);
+    Vertex_vector trial(u.size()), r;
+    // far away, triangulations are flipped in vain
+    const double longest = is_careful() ? reach_ : std::numeric_limits<double>::infinity(); // in u
+    const double first = (std::min)(1., longest / largest_entry(d));
+    for(double t = first; t > 1e-6 * first; )
+    {
+      step(u, t, d, trial);
+      const bool is_finite = evaluate(trial, r);
+      double slope_there = is_finite ? dot(r, d) : -std::numeric_limits<double>::infinity();
+      if(is_finite && is_careful() && relax_outliers(t, trial, r))
+        slope_there = (dot(r, trial) - dot(r, u)) / t;
+      if(slope_there >= -tolerable_rise() * slope)
+      {
+        // a hundredth of a step, without much effect: u is to go very far
+        reach_ = first > 0.01 || t < first || slope_there < 0.5 * slope ? least_reach : 2 * reach_;
+        u.swap(trial);
+        residual_.swap(r);
+        return true;
+      }
+      // the zero of the secant through both slopes, safeguarded
+      const double secant = is_finite && slope_there < slope ? slope / (slope - slope_there) : 0.1; // else too far
+      t *= (std::min)(0.7, (std::max)(0.1, secant));
+    }
+    return begin_trust_region(u);
+  }
+
+  // Needles appear where u varies much. The angle at the end of a needle goes from 0 to pi while u changes by as little as its
+  // width divided by its length: there E is all but not differentiable, Newton's step is wrong but for a tiny part of it,
+  // and each of such vertices would stop the line search. Each of them is moved by itself, with flips, to the minimum of E
+  // along its u (nonlinear elimination, Cai and Keyes, 2002; here by a few rounds of Gauss and Seidel's).
+  // Returns whether any was moved; then `r` is the residual.
+  bool relax_outliers(double t, Vertex_vector& trial, Vertex_vector& r)
+  {
+    bool is_moved = false;
+    if constexpr(Energy::has_flips)
+    {
+      const int rounds = 2;
+      const double tolerable = 0.3, most = 2; // in radians; in u
+      for(int round = 0; round < rounds; ++round)
+      {
+        std::vector<std::pair<double, std::uint32_t> > outliers; // the largest first
+        for(std::uint32_t v = 0; v < r.size(); ++v)
+          if(std::abs(r[v]) > tolerable && std::abs(r[v] - (1 - t) * residual_[v]) > tolerable)
+            outliers.emplace_back(-std::abs(r[v]), v);
+        if(outliers.empty() || is_relaxing_in_vain())
+          break;
+        std::sort(outliers.begin(), outliers.end());
+        for(const auto& outlier : outliers)
+          trial[outlier.second] = energy_.relax(outlier.second, target_[outlier.second], trial[outlier.second], most);
+        evaluate(trial, r);
+        is_moved = true;
+      }
+    }
+    return is_moved;
+  }
+
+  // The factor for the trust region is that of the first metric again: a Hessian at broken triangles makes a
+  // bad norm. Where no triangle is broken and little is left to do, it is rounding that keeps the line search from going on.
+  bool begin_trust_region(Vertex_vector& u)
+  {
+    evaluate(u, residual_);
+    if(energy_.broken_faces().empty() && largest_entry(residual_) < 1e-6)
+      return false;
+    is_lost_ = true;
+    radius_ = 0;
+    energy_.evaluate(Vertex_vector(u.size(), 0.));
+    const bool has_factor = solver_.factorize(energy_.weights());
+    evaluate(u, residual_);
+    return has_factor && trust_region_step(u);
+  }
+
+  // Newton-Steihaug (T. Steihaug, 1983): conjugate gradients, left at the boundary
+  // of a ball in the norm of the preconditioner. The decrease of 2 E is the
+  // integral of r along the step, by the trapezoidal rule.
+  bool trust_region_step(Vertex_vector& u)
+  {
+    Vertex_vector trial(u.size()), r;
+    double near_bound = (std::min)(1e-3, bounds_.empty() ? 0 : violation(u));
+    for(int attempt = 0; attempt < 60; ++attempt, near_bound /= 4)
+    {
+      Vertex_vector d, ad;
+      hold_active(u, near_bound);
+      if(!steihaug_direction(d))
+        return false;
+      project(u, d);
+      ad = solver_.graph().product(energy_.weights(), d);
+      const double predicted = dot(residual_, d) - dot(d, ad) / 2;
+      step(u, 1, d, trial);
+      const bool is_finite = evaluate(trial, r);
+      const double actual = is_finite && predicted > 0 ? (dot(residual_, d) + dot(r, d)) / 2 : -1;
+      const double ratio = predicted > 0 ? actual / predicted : -1;
+      if(ratio > 0.75 && at_boundary_)
+        radius_ *= 2;
+      else if(!(ratio > 0.25))
+        radius_ = 0.25 * (std::min)(radius_, step_norm_);
+      if(ratio > 0.1)
+      {
+        u.swap(trial);
+        residual_.swap(r);
+        return true;
+      }
+      evaluate(u, residual_);
+      if(!(radius_ > 0))
+        return false;
+    }
+    return false;
+  }
+
+  // Ends the step d at the bounds, and moves the vertices held to theirs (D. P. Bertsekas, 1982).
+  void project(const Vertex_vector& u, Vertex_vector& d)
+  {
+    if(bounds_.empty())
+      return;
+    for(std::size_t v = 0; v < u.size(); ++v)
+      d[v] = active_[v] ? bounds_.bound[v] - u[v] : (std::max)(d[v], bounds_.bound[v] - u[v]);
+    solver_.hold_none();
+  }
+
+  bool steihaug_direction(Vertex_vector& d)
+  {
+    const std::size_t n = residual_.size(), most = 300, few = 15;
+    const std::vector<double>& w = energy_.weights();
+    for(bool refactored = false; ; refactored = true)
+    {
+      Vertex_vector r = residual_, z, p;
+      if(!bounds_.empty())
+        solver_.graph().clear_fixed(r);
+      if(!bounds_.empty() && largest_entry(r) == 0)
+      {
+        d.assign(n, 0.);
+        return true;
+      }
+      d.assign(n, 0.);
+      at_boundary_ = false;
+      if(!solver_.precondition(r, z))
+        return false;
+      p = z;
+      double rz = dot(r, z);
+      if(radius_ == 0)
+        radius_ = 2 * std::sqrt(rz);
+      const double goal = rz * forcing_term() * forcing_term();
+      double dd = 0, dp = 0, pp = rz; // squares and products in the norm of the preconditioner
+      for(std::size_t k = 0; k < most; ++k)
+      {
+        if(k == few && !refactored)
+          break;
+        ++statistics_.number_of_linear_iterations;
+        const Vertex_vector q = solver_.graph().product(w, p);
+        const double curvature = dot(p, q);
+        const double step = rz / curvature;
+        const double dd_next = dd + 2 * step * dp + step * step * pp;
+        if(!(curvature > 1e-14 * rz) || dd_next >= radius_ * radius_)
+        {
+          const double tau = (-dp + std::sqrt((std::max)(0., dp * dp + pp * (radius_ * radius_ - dd)))) / pp;
+          for(std::size_t v = 0; v < n; ++v)
+            d[v] += tau * p[v];
+          at_boundary_ = true;
+          step_norm_ = radius_;
+          return dot(residual_, d) > 0;
+        }
+        for(std::size_t v = 0; v < n; ++v)
+        {
+          d[v] += step * p[v];
+          r[v] -= step * q[v];
+        }
+        if(!solver_.precondition(r, z))
+          return false;
+        const double rz_next = dot(r, z), beta = rz_next / rz;
+        dd = dd_next;
+        dp = beta * (dp + step * pp);
+        pp = rz_next + beta * beta * pp;
+        rz = rz_next;
+        step_norm_ = std::sqrt(dd);
+        if(rz <= goal || k + 1 == most)
+          return dot(residual_, d) > 0;
+        for(std::size_t v = 0; v < n; ++v)
+          p[v] = z[v] + beta * p[v];
+      }
+      if(!solver_.factorize(w))
+        return false;
+      radius_ = (std::max)(radius_, 1e-300);
+    }
+  }
+
+  Energy& energy_;
+  Laplacian_solver<SolverTraits>& solver_;
+  const Vertex_vector& target_;
+  const Lower_bounds bounds_;
+  const Newton_options options_;
+  Statistics& statistics_;
+  Visitor& visitor_;
+  Vertex_vector residual_;
+  std::vector<char> active_; // the vertices whose bounds are thought to be active
+  double floor_ = 0;
+  double least_ = std::numeric_limits<double>::infinity(); // residual, in steps of at least one half
+  std::size_t last_gain_ = 0;                              // the iteration when it was found
+  static constexpr double least_reach = 5;
+  double reach_ = least_reach;        // of a step in u, where it is bounded
+  double radius_ = 0, step_norm_ = 0; // of the trust region
+  bool at_boundary_ = false;
+  bool is_lost_ = false; // line search has failed among broken triangles
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NEWTON_METHOD_H

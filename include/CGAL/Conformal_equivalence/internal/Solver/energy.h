@@ -1,0 +1,250 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The energy E(u) of a triangulated surface, its gradient and its Hessian
+// (sections 2.1 and 3.1, equations (7) to (10), of Springborn, Schroeder and
+// Pinkall, 2008), on all of R^n.
+//
+//   E(u) = sum over triangles ( f(lambda~) - pi/2 (u_i + u_j + u_k) ) + 1/2 sum Theta^_i u_i
+//   dE/du_i = 1/2 (Theta^_i - Theta~_i)
+//   (Hess E . d)_i = 1/4 sum over edges ij of w_ij (d_i - d_j),  w_ij = cot + cot
+//
+// E is C^1 and convex; where a triangle inequality fails, its angles are pi, 0, 0
+// and its cotangents count as 0.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ENERGY_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ENERGY_H
+
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// f of one triangle, equation (8): `lambda[k]` = 2 log of the length opposite to `angle[k]`.
+template <typename NT>
+NT triangle_energy(const std::array<NT, 3>& lambda, const std::array<NT, 3>& angle)
+{
+  NT result(0);
+  for(int k = 0; k < 3; ++k)
+    result += angle[k] * lambda[k] / 2 + Lobachevsky(angle[k]);
+  return result;
+}
+
+// f as a function of the logarithmic lengths alone.
+template <typename NT>
+NT triangle_energy(const std::array<NT, 3>& lambda)
+{
+  using std::exp;
+  return triangle_energy(lambda, triangle_angles<NT>(exp(lambda[0] / 2), exp(lambda[1] / 2), exp(lambda[2] / 2)).angle);
+}
+
+// The angles and cotangents of the metric l~ = e^{(u_i + u_j)/2} l at one u.
+template <typename NT, typename Length = NT>
+class Conformal_energy
+{
+public:
+  typedef Intrinsic_triangulation<Length> Triangulation;
+  typedef typename Triangulation::Index Index;
+  static constexpr bool has_flips = false;
+
+  // Keeps a reference to `t` and its lengths converted to NT. If `normalize`, they are
+  // multiplied by a power of two that brings them near 1.
+  explicit Conformal_energy(const Triangulation& t, bool normalize = false)
+    : t_(t), scale_(t.number_of_vertices(), NT(1)),
+      angle_sum_(t.number_of_vertices()), weight_(t.number_of_edges()), sum_(t.number_of_vertices())
+  {
+    exponent_ = normalize ? middle_exponent() : 0;
+    length_.resize(t.number_of_edges());
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      update_length(e);
+  }
+
+  // The length of `e` has changed.
+  void update_length(Index e)
+  {
+    using std::ldexp;
+    const Length& l = t_.length(e);
+    length_[e] = static_cast<NT>(exponent_ == 0 ? l : Length(ldexp(l, -exponent_)));
+  }
+
+  // moves to u: computes angle sums and edge weights there.
+  // Returns false if a length overflows, underflows or is no number.
+  bool evaluate(const std::vector<NT>& u)
+  {
+    using std::exp;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      scale_[v] = exp(u[v] / 2);
+    clear();
+    bool is_finite = true;
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+      is_finite = add_triangle(3 * f) && is_finite;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      angle_sum_[v] = sum_[v].radians();
+    return is_finite;
+  }
+
+  const std::vector<NT>& angle_sums() const { return angle_sum_; }  // Theta~, by vertex
+  const std::vector<NT>& weights() const { return weight_; }        // w, by edge
+  const std::vector<Index>& broken_faces() const { return broken_; }
+
+  // The angle sum at v on the triangulation and with the factors of now, and how fast it falls as u grows there.
+  std::pair<NT, NT> angle_sum_at(Index v) const
+  {
+    Angle_sum<NT> sum;
+    NT slope(0);
+    t_.for_each_outgoing(v, [&](Index h)
+    {
+      const std::array<NT, 3> l = {{scaled_length(h), scaled_length(t_.next(h)), scaled_length(t_.previous(h))}};
+      const Incircle_form<NT> triangle(l[0], l[1], l[2]);
+      if(triangle.is_triangle && triangle.r > 0)
+      {
+        const NT unit = 1 / triangle.s;
+        sum.add(triangle.tangent[1] * unit, triangle.r * unit);
+        slope += (t_.target(h) == v ? NT(0) : cotangent(triangle, 0)) + (t_.apex(h) == v ? NT(0) : cotangent(triangle, 2));
+      }
+      else if(longest_side(l[0], l[1], l[2]) == 1)
+        sum.add_straight();
+    });
+    return std::make_pair(sum.radians(), NT(slope / 2));
+  }
+
+  // How far rounding alone may move the angle sums, in units of epsilon, by vertex: a
+  // corner's angle moves by (cot + cot of the two others) times the relative change of
+  // the lengths. Linear time.
+  std::vector<NT> sensitivities() const
+  {
+    using std::abs;
+    std::vector<NT> result(t_.number_of_vertices(), NT(0));
+    for(Index h = 0; h < t_.number_of_halfedges(); h += 3)
+    {
+      const Incircle_form<NT> triangle(scaled_length(h), scaled_length(h + 1), scaled_length(h + 2));
+      if(!triangle.is_triangle || !(triangle.r > 0))
+        continue;
+      std::array<NT, 3> c;
+      for(int k = 0; k < 3; ++k)
+        c[k] = abs(cotangent(triangle, k));
+      for(int k = 0; k < 3; ++k)
+        result[t_.apex(h + k)] += 1 + c[(k + 1) % 3] + c[(k + 2) % 3];
+    }
+    return result;
+  }
+
+  const NT& scale(Index v) const { return scale_[v]; }
+  const std::vector<NT>& scales() const { return scale_; }
+  NT scaled_length(Index h) const
+  {
+    return scale_[t_.origin(h)] * length_[t_.edge(h)] * scale_[t_.target(h)];
+  }
+
+  // E(u), equation (7). `target[v]` is Theta^; `evaluate(u)` need not be called.
+  NT value(const std::vector<NT>& u, const std::vector<NT>& target) const
+  {
+    using std::log;
+    const NT pi = Number_constants<NT>::pi();
+    NT sum(0);
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+    {
+      std::array<NT, 3> lambda;
+      NT u_sum(0);
+      for(Index k = 0; k < 3; ++k)
+      {
+        const Index h = 3 * f + k;
+        lambda[k] = 2 * log(length_[t_.edge(h)]) + u[t_.origin(h)] + u[t_.target(h)];
+        u_sum += u[t_.origin(h)];
+      }
+      sum += triangle_energy(lambda) - pi / 2 * u_sum;
+    }
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      if(!t_.is_isolated_vertex(v))
+        sum += target[v] * u[v] / 2;
+    return sum;
+  }
+
+  // Hess E . d at the u last evaluated, equation (10).
+  std::vector<NT> hessian_product(const std::vector<NT>& d) const
+  {
+    std::vector<NT> result(d.size(), NT(0));
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+    {
+      const Index i = t_.origin(t_.edge_halfedge(e)), j = t_.target(t_.edge_halfedge(e));
+      const NT flux = weight_[e] * (d[i] - d[j]) / 4;
+      result[i] += flux;
+      result[j] -= flux;
+    }
+    return result;
+  }
+
+protected:
+  // Nothing but the factor: the next evaluation finds the rest.
+  void set_scale(Index v, const NT& scale) { scale_[v] = scale; }
+
+private:
+  // of the middle between shortest and longest length, logarithmically
+  int middle_exponent() const
+  {
+    using std::frexp;
+    int least = (std::numeric_limits<int>::max)(), most = (std::numeric_limits<int>::min)();
+    for(const Length& l : t_.lengths())
+    {
+      int exponent;
+      if(!(l > 0))
+        continue;
+      (void) frexp(l, &exponent);
+      least = (std::min)(least, exponent);
+      most = (std::max)(most, exponent);
+    }
+    return least > most ? 0 : least + (most - least) / 2;
+  }
+
+  void clear()
+  {
+    std::fill(sum_.begin(), sum_.end(), Angle_sum<NT>());
+    std::fill(weight_.begin(), weight_.end(), NT(0));
+    broken_.clear();
+  }
+
+  // Adds the triangle of h; returns whether its lengths are positive and finite.
+  bool add_triangle(Index h)
+  {
+    const std::array<NT, 3> l = {{scaled_length(h), scaled_length(h + 1), scaled_length(h + 2)}};
+    const Incircle_form<NT> triangle(l[0], l[1], l[2]);
+    if(triangle.is_triangle && triangle.r > 0)
+    {
+      const NT unit = 1 / triangle.s, y = triangle.r * unit;
+      for(int k = 0; k < 3; ++k)
+      {
+        sum_[t_.apex(h + k)].add(triangle.tangent[k] * unit, y);
+        weight_[t_.edge(h + k)] += cotangent(triangle, k);
+      }
+    }
+    else
+    {
+      broken_.push_back(Triangulation::face(h));
+      sum_[t_.apex(h + longest_side(l[0], l[1], l[2]))].add_straight();
+    }
+    return l[0] > 0 && l[1] > 0 && l[2] > 0 && triangle.s - triangle.s == NT(0);
+  }
+
+  const Triangulation& t_;
+  int exponent_ = 0; // lengths are divided by this power of two
+  std::vector<NT> length_, scale_, angle_sum_, weight_;
+  std::vector<Angle_sum<NT> > sum_;
+  std::vector<Index> broken_;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ENERGY_H

@@ -1,0 +1,297 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What the maps to the sphere and to the disk have in common: which apex, which triangulation, and when a result is good.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SPHERE_INSCRIBED_MAPPING_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SPHERE_INSCRIBED_MAPPING_H
+
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron_finder.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/projective_interpolation.h>
+
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <new>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// What has its barycentre in the centre of the sphere, or of the disk, when a Moebius transformation is chosen.
+enum class Moebius_weights
+{
+  VERTICES, ///< the vertices
+  AREAS     ///< the vertices, each with a third of the area of its triangles on the surface given
+};
+
+namespace internal {
+
+template <typename NT>
+std::vector<double> moebius_weights(const Intrinsic_triangulation<NT>& t, Moebius_weights kind)
+{
+  std::vector<double> result(t.number_of_vertices(), 0.);
+  double unit = 0;
+  for(const NT& l : t.lengths())
+    unit = (std::max)(unit, static_cast<double>(l));
+  for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    double& weight = result[t.origin(h)];
+    if(kind == Moebius_weights::VERTICES)
+      weight = 1;
+    else
+    {
+      const Incircle_form<double> triangle(static_cast<double>(t.halfedge_length(t.next(h))) / unit,
+        static_cast<double>(t.halfedge_length(t.previous(h))) / unit, static_cast<double>(t.halfedge_length(h)) / unit);
+      weight += triangle.r * triangle.s;
+    }
+  }
+  return result;
+}
+
+template <typename NT, typename NamedParameters>
+class Inscribed_mapping
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<NT> Triangulation;
+  typedef Ideal_polyhedron<NT> Polyhedron;
+
+public:
+  // `surface`: closed, or with one border; `whole`: the same, or its double. Both are kept as references.
+  Inscribed_mapping(const Triangulation& surface, const Triangulation& whole, const NamedParameters& np)
+    : surface_(surface), whole_(whole), np_(np)
+  {}
+
+  // The polyhedron that `accept(polyhedron)`, which normalizes and judges it, accepts: it returns the faces of the polyhedron that are
+  // not positive. On failure its status says why. `apex`: null_index for the best one.
+  template <typename Accept>
+  Polyhedron operator()(Index apex, Retriangulation retriangulation, Accept accept) const
+  {
+    const Stopwatch stopwatch;
+    Polyhedron result;
+    double discarded = 0;
+    std::size_t discarded_iterations = 0;
+    if(retriangulation != Retriangulation::ALWAYS)
+    {
+      result = on_fixed_triangulation(apex, retriangulation == Retriangulation::NEVER, accept);
+      if(retriangulation == Retriangulation::NEVER || is_success(result.status) || !may_be_helped_by_flips(result.status))
+      {
+        result.statistics.seconds.solve = stopwatch.seconds();
+        return result;
+      }
+      discarded = stopwatch.seconds();
+      discarded_iterations = result.statistics.number_of_iterations;
+    }
+    result = with_flips(apex, retriangulation, accept);
+    result.statistics.seconds.solve = stopwatch.seconds();
+    result.statistics.seconds.discarded = discarded;
+    result.statistics.number_of_discarded_iterations = discarded_iterations;
+    result.statistics.number_of_flips = result.flips.size();
+    result.statistics.conformal_class = retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
+                                                                                   : Conformal_class::GIVEN_TRIANGULATION;
+    return result;
+  }
+
+private:
+  static bool may_be_helped_by_flips(Status status)
+  {
+    return status == Status::DEGENERATE_METRIC || status == Status::ITERATIONS_EXHAUSTED || status == Status::SINGULAR_PROBLEM
+        || status == Status::ANGLE_OUT_OF_RANGE || status == Status::NO_ANGLE_LEFT || status == Status::NOT_INJECTIVE;
+  }
+
+  Symmetry_axis axis(Index apex) const { return surface_.is_border_vertex(apex) ? border_axis(surface_, apex) : Symmetry_axis(); }
+
+  // The same for all vertices of the whole.
+  Symmetry_axis whole_axis(Index apex) const
+  {
+    Symmetry_axis result = axis(apex);
+    if(!result.empty())
+      result.contains.resize(whole_.number_of_vertices(), 0);
+    return result;
+  }
+
+  // Seen from another vertex, a polyhedron that is not convex may have triangles that are flipped in the plane, and then is not found. So that it does not
+  // depend on the vertex given whether edges will be flipped, the best one decides, unless `is_any_good`.
+  template <typename Accept>
+  Polyhedron on_fixed_triangulation(Index apex, bool is_any_good, Accept accept) const
+  {
+    const std::vector<Index> best = best_apices(surface_, 1);
+    if(best.empty() && apex == surface_.null_index)
+      return without_apex();
+    const Ideal_polyhedron_finder<NT, NamedParameters> find(surface_, np_);
+    const auto found = [&](Index a) { return judged(find.on_fixed_triangulation(a, axis(a)), accept); };
+    Polyhedron result = best.empty() ? without_apex() : found(best[0]);
+    if(apex == surface_.null_index || (!best.empty() && apex == best[0]) || !(is_any_good || is_success(result.status)))
+      return result;
+    Polyhedron other = found(apex);
+    return is_success(other.status) || !is_success(result.status) ? other : result;
+  }
+
+  template <typename Accept>
+  Polyhedron with_flips(Index apex, Retriangulation retriangulation, Accept accept) const
+  {
+    Polyhedron result;
+    Triangulation start = whole_;
+    std::vector<Index> flips;
+    if(retriangulation == Retriangulation::ALWAYS && !make_intrinsic_delaunay(start, result.faces, [&](Index e) { flips.push_back(e); }))
+    {
+      // those of the surface come before their images
+      result.faces.erase(std::lower_bound(result.faces.begin(), result.faces.end(), surface_.number_of_faces()), result.faces.end());
+      result.status = Status::DEGENERATE_METRIC;
+      return result;
+    }
+    std::vector<Index> apices = best_apices(is_closed() ? start : surface_, 8);
+    if(apex != surface_.null_index) // others lead to the same polyhedron, if this one fails
+      apices.insert(apices.begin(), apex);
+    const Ideal_polyhedron_finder<NT, NamedParameters> find(whole_, np_);
+    result = without_apex();
+    for(Index a : apices)
+    {
+      result = judged(find.convex(start, flips, a, whole_axis(a)), accept);
+      if(is_success(result.status) || !may_be_helped_by_flips(result.status))
+        return result;
+    }
+    return result;
+  }
+
+  bool is_closed() const { return &surface_ == &whole_; }
+
+  static Polyhedron without_apex()
+  {
+    Polyhedron result;
+    result.status = Status::WRONG_TOPOLOGY;
+    return result;
+  }
+
+  template <typename Accept>
+  static Polyhedron judged(Polyhedron polyhedron, Accept accept)
+  {
+    if(!is_success(polyhedron.status))
+      return polyhedron;
+    const std::vector<Index> flipped = accept(polyhedron);
+    if(is_success(polyhedron.status) && !flipped.empty())
+    {
+      polyhedron.status = Status::NOT_INJECTIVE;
+      polyhedron.faces = flipped;
+    }
+    return polyhedron;
+  }
+
+  const Triangulation& surface_;
+  const Triangulation& whole_;
+  const NamedParameters& np_;
+};
+
+// The stages of a map, one after the other, each only if all went well before: lengths; `is_kind()`, whether it is a surface of the right kind;
+// `find()`; `judge()`.
+template <typename TriangleMesh, typename NT, typename NamedParameters, typename Is_kind, typename Find, typename Judge>
+void run_mapping(Imported_mesh<TriangleMesh, NT>& mesh, Flattening_report<TriangleMesh>& report, const NamedParameters& np,
+                 Is_kind is_kind, Find find, Judge judge)
+{
+  auto given_visitor = parameters::choose_parameter<Default_visitor>(parameters::get_parameter(np, internal_np::visitor));
+  auto& visitor = unwrap(given_visitor);
+  try
+  {
+    double seconds = 0;
+    timed(seconds, Stage::IMPORT, visitor, [&] { set_lengths(mesh, np); report = import_report(mesh); });
+    report.statistics.seconds.import = seconds;
+    if(bool(report) && !is_kind(report.topology))
+      report.status = Status::WRONG_TOPOLOGY;
+    if(bool(report))
+      find();
+    if(bool(report))
+      timed(report.statistics.seconds.verify, Stage::VERIFY, visitor, judge);
+  }
+  catch(const std::bad_alloc&)
+  {
+    report.status = Status::OUT_OF_MEMORY;
+  }
+}
+
+// The vertex to be sent to infinity; null_index: any.
+template <typename TriangleMesh, typename NT, typename NamedParameters>
+std::uint32_t given_apex(const Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& np)
+{
+  CGAL_USE(np);
+  if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::conformal_vertex_at_infinity_t>::value)
+    return mesh.triangulation.null_index;
+  else
+  {
+    const auto v = parameters::get_parameter(np, internal_np::conformal_vertex_at_infinity);
+    return v == boost::graph_traits<TriangleMesh>::null_vertex() ? mesh.triangulation.null_index : mesh.index_of_vertex(v);
+  }
+}
+
+template <typename NamedParameters>
+Retriangulation given_retriangulation(const NamedParameters& np)
+{
+  return parameters::choose_parameter(parameters::get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::WHEN_NEEDED);
+}
+
+// Names the faces, or, if these are no faces of the mesh, their vertices.
+template <typename TriangleMesh, typename NT>
+void take_over(const Imported_mesh<TriangleMesh, NT>& mesh, const Ideal_polyhedron<NT>& polyhedron, Flattening_report<TriangleMesh>& report)
+{
+  const Statistics::Seconds seconds = report.statistics.seconds;
+  report.statistics = polyhedron.statistics;
+  report.statistics.seconds.import = seconds.import;
+  report.status = polyhedron.status;
+  report.amount = polyhedron.amount;
+  if(polyhedron.flips.empty())
+    name_elements(mesh, polyhedron.vertices, {}, polyhedron.faces, report);
+  else
+    name_elements(mesh, with_vertices_of_faces(mesh.triangulation, polyhedron.vertices, polyhedron.triangulation, polyhedron.faces), {}, {}, report);
+}
+
+// u and e^{-u} of weights, by vertex of the mesh.
+template <typename TriangleMesh, typename NT, typename Wide, typename NamedParameters>
+void write_weights(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vector<Wide>& weights, const NamedParameters& np)
+{
+  using parameters::get_parameter;
+  using parameters::is_default_parameter;
+  using std::log;
+  const Intrinsic_triangulation<NT>& t = mesh.triangulation;
+  CGAL_USE(np);
+  CGAL_USE(weights);
+  CGAL_USE(t);
+  if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_u_t>::value)
+  {
+    const auto map = get_parameter(np, internal_np::conformal_u);
+    typedef typename boost::property_traits<std::decay_t<decltype(map)> >::value_type Value;
+    for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+      if(!t.is_isolated_vertex(v))
+        put(map, mesh.vertex(v), static_cast<Value>(static_cast<NT>(-Wide(log(weights[v])))));
+  }
+  if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_weight_t>::value)
+  {
+    Wide largest(0);
+    for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+      largest = t.is_isolated_vertex(v) || !(largest < weights[v]) ? largest : weights[v];
+    for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+      if(!t.is_isolated_vertex(v))
+        put(get_parameter(np, internal_np::conformal_weight), mesh.vertex(v),
+            (std::max)(static_cast<double>(Wide(weights[v] / largest)), (std::numeric_limits<double>::min)()));
+  }
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SPHERE_INSCRIBED_MAPPING_H

@@ -1,0 +1,104 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_SPHERE_PREDICATES_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_SPHERE_PREDICATES_H
+
+#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+template <typename NT>
+bool is_finite_vector(const std::array<NT, 3>& p)
+{
+  return std::isfinite(static_cast<double>(p[0])) && std::isfinite(static_cast<double>(p[1])) && std::isfinite(static_cast<double>(p[2]));
+}
+
+template <typename NT>
+NT determinant(const std::array<NT, 3>& p, const std::array<NT, 3>& q, const std::array<NT, 3>& r)
+{
+  return p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
+}
+
+// Six times as large as any sum of products in the determinant.
+template <typename NT>
+double determinant_bound(const std::array<NT, 3>& p, const std::array<NT, 3>& q, const std::array<NT, 3>& r)
+{
+  double result = 6;
+  for(const std::array<NT, 3>* x : {&p, &q, &r})
+    result *= (std::max)({std::abs(static_cast<double>((*x)[0])), std::abs(static_cast<double>((*x)[1])), std::abs(static_cast<double>((*x)[2]))});
+  return result;
+}
+
+// Whether p, q, r are counterclockwise on a sphere around the origin, seen from outside: exactly for `double` ...
+inline bool is_counterclockwise(const std::array<double, 3>& p, const std::array<double, 3>& q, const std::array<double, 3>& r)
+{
+  typedef CGAL::Exact_predicates_inexact_constructions_kernel Kernel;
+  if(!is_finite_vector(p) || !is_finite_vector(q) || !is_finite_vector(r))
+    return false;
+  const auto point = [](const std::array<double, 3>& x) { return Kernel::Point_3(x[0], x[1], x[2]); };
+  return CGAL::orientation(Kernel::Point_3(0, 0, 0), point(p), point(q), point(r)) == CGAL::POSITIVE;
+}
+
+// ... and for pairs of them;
+inline bool is_counterclockwise(const std::array<Double_double, 3>& p, const std::array<Double_double, 3>& q, const std::array<Double_double, 3>& r)
+{
+  if(!is_finite_vector(p) || !is_finite_vector(q) || !is_finite_vector(r))
+    return false;
+  const double value = static_cast<double>(determinant(p, q, r)), bound = 1e-29 * determinant_bound(p, q, r);
+  if(std::abs(value) > bound && bound > 1e-250)
+    return value > 0;
+  const auto exact = [](const std::array<Double_double, 3>& x)
+    { return std::array<Exact_rational, 3>{{ exact_number(x[0]), exact_number(x[1]), exact_number(x[2]) }}; };
+  return determinant(exact(p), exact(q), exact(r)) > 0;
+}
+
+// for other numbers `true` only if that is certain.
+template <typename NT>
+bool is_counterclockwise(const std::array<NT, 3>& p, const std::array<NT, 3>& q, const std::array<NT, 3>& r)
+{
+  if(!is_finite_vector(p) || !is_finite_vector(q) || !is_finite_vector(r))
+    return false;
+  return determinant(p, q, r) > NT(16 * std::numeric_limits<NT>::epsilon() * determinant_bound(p, q, r));
+}
+
+// Whether the polygon is strictly convex, as one of great arcs, and counterclockwise.
+template <typename NT>
+bool is_convex_spherical_polygon(const std::vector<std::array<NT, 3> >& p)
+{
+  const std::size_t n = p.size();
+  for(std::size_t i = 0; i < n; ++i)
+    if(!is_counterclockwise(p[i], p[(i + 1) % n], p[(i + 2) % n]))
+      return false;
+  for(std::size_t i = 2; i + 2 < n; ++i)
+    if(!is_counterclockwise(p[0], p[i], p[i + 1]))
+      return false;
+  return true;
+}
+
+// The area of a spherical triangle, negative if it is clockwise (A. van Oosterom and J. Strackee, 1983).
+template <typename NT>
+double solid_angle(const std::array<NT, 3>& p, const std::array<NT, 3>& q, const std::array<NT, 3>& r)
+{
+  const auto dot = [](const std::array<NT, 3>& a, const std::array<NT, 3>& b)
+    { return static_cast<double>(NT(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])); };
+  return 2 * std::atan2(static_cast<double>(determinant(p, q, r)), 1 + dot(p, q) + dot(q, r) + dot(r, p));
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_SPHERE_PREDICATES_H
