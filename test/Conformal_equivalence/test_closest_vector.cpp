@@ -328,7 +328,7 @@ BOOST_AUTO_TEST_CASE(near_against_brute_force)
         const Eigen::MatrixXd gram = random_gram(d, condition, random);
         const Eigen::VectorXd x = random_target(d, random);
         const Reduced_lattice lattice(gram);
-        const std::vector<Lattice_vector> list = lattice.near(x, most, 1000000);
+        const std::vector<Lattice_vector> list = lattice.nearest_vectors(x, most, 1000000);
         BOOST_TEST_REQUIRE(list.size() == most);
         const std::vector<double> all = brute_force(gram, x, list.back().square_distance * (1 + 1e-9));
         BOOST_TEST_REQUIRE(all.size() >= most);
@@ -403,7 +403,7 @@ BOOST_AUTO_TEST_CASE(hexagonal_lattice)
   gram << 2, -1, -1, 2;
   const Reduced_lattice lattice(gram);
   // the origin, six vectors of square length 2, six of 6
-  const std::vector<Lattice_vector> shells = lattice.near(Eigen::VectorXd::Zero(2), 14, 100000);
+  const std::vector<Lattice_vector> shells = lattice.nearest_vectors(Eigen::VectorXd::Zero(2), 14, 100000);
   BOOST_TEST_REQUIRE(shells.size() == 14u);
   for(std::size_t i = 0; i < shells.size(); ++i)
     BOOST_TEST(shells[i].square_distance == (i == 0 ? 0 : i < 7 ? 2 : i < 13 ? 6 : 8));
@@ -412,7 +412,7 @@ BOOST_AUTO_TEST_CASE(hexagonal_lattice)
   // the deep holes, at a distance of sqrt(2/3) from three points
   Eigen::VectorXd hole(2);
   hole << 2. / 3, 1. / 3;
-  const std::vector<Lattice_vector> corners = lattice.near(hole, 4, 100000);
+  const std::vector<Lattice_vector> corners = lattice.nearest_vectors(hole, 4, 100000);
   for(std::size_t i = 0; i < 3; ++i)
     BOOST_TEST(is_close(corners[i].square_distance, 2. / 3, 1e-15));
   BOOST_TEST(is_close(corners[3].square_distance, 8. / 3, 1e-15));
@@ -427,7 +427,7 @@ BOOST_AUTO_TEST_CASE(lattice_E8)
   BOOST_TEST(is_close(gram.determinant(), 1, 1e-12));
   const Reduced_lattice lattice(gram);
   // the origin, 240 vectors of square length 2, then those of 4
-  const std::vector<Lattice_vector> shells = lattice.near(Eigen::VectorXd::Zero(8), 243, 1000000);
+  const std::vector<Lattice_vector> shells = lattice.nearest_vectors(Eigen::VectorXd::Zero(8), 243, 1000000);
   BOOST_TEST_REQUIRE(shells.size() == 243u);
   for(std::size_t i = 0; i < shells.size(); ++i)
     BOOST_TEST(shells[i].square_distance == (i == 0 ? 0 : i < 241 ? 2 : 4));
@@ -436,7 +436,7 @@ BOOST_AUTO_TEST_CASE(lattice_E8)
   Eigen::VectorXd hole(8);
   for(int i = 0; i < 8; ++i)
     hole[i] = double(shells.back().coefficients[std::size_t(i)]) / 2;
-  const std::vector<Lattice_vector> corners = lattice.near(hole, 17, 1000000);
+  const std::vector<Lattice_vector> corners = lattice.nearest_vectors(hole, 17, 1000000);
   BOOST_TEST_REQUIRE(corners.size() == 17u);
   for(std::size_t i = 0; i < 17; ++i)
     BOOST_TEST(corners[i].square_distance == (i < 16 ? 1 : 2));
@@ -516,7 +516,7 @@ BOOST_AUTO_TEST_CASE(too_few_nodes)
       BOOST_TEST(v.number_of_nodes <= most_nodes);
       BOOST_TEST(v.square_distance <= last);
       last = v.square_distance;
-      for(const Lattice_vector& w : lattice.near(x, 5, most_nodes))
+      for(const Lattice_vector& w : lattice.nearest_vectors(x, 5, most_nodes))
         BOOST_TEST(!w.is_closest);
     }
     BOOST_TEST((lattice.closest(x, 0).coefficients == b.coefficients));
@@ -571,17 +571,17 @@ BOOST_AUTO_TEST_CASE(degenerate_sizes)
   BOOST_TEST(point.dimension() == 0u);
   BOOST_TEST(point.closest(Eigen::VectorXd(0), 10).is_closest);
   BOOST_TEST(point.closest(Eigen::VectorXd(0), 10).square_distance == 0);
-  BOOST_TEST(point.near(Eigen::VectorXd(0), 3, 10).size() == 1u);
+  BOOST_TEST(point.nearest_vectors(Eigen::VectorXd(0), 3, 10).size() == 1u);
 
   const Reduced_lattice line(Eigen::MatrixXd::Constant(1, 1, 4));
-  const std::vector<Lattice_vector> list = line.near(Eigen::VectorXd::Constant(1, 2.25), 4, 100);
+  const std::vector<Lattice_vector> list = line.nearest_vectors(Eigen::VectorXd::Constant(1, 2.25), 4, 100);
   BOOST_TEST_REQUIRE(list.size() == 4u);
   const std::int64_t expected[] = {2, 3, 1, 4};
   for(std::size_t i = 0; i < 4; ++i)
     BOOST_TEST(list[i].coefficients[0] == expected[i]);
   BOOST_TEST(list[0].square_distance == 0.25);
   BOOST_TEST(list[3].square_distance == 12.25);
-  BOOST_TEST(line.near(Eigen::VectorXd::Constant(1, 2.25), 0, 100).empty());
+  BOOST_TEST(line.nearest_vectors(Eigen::VectorXd::Constant(1, 2.25), 0, 100).empty());
 }
 
 BOOST_AUTO_TEST_CASE(bad_input)
@@ -620,7 +620,7 @@ BOOST_AUTO_TEST_CASE(bad_input)
     const Eigen::VectorXd x = Eigen::VectorXd::Constant(gram.rows(), .3);
     BOOST_TEST(lattice.babai(x).coefficients.empty());
     BOOST_TEST(!lattice.closest(x, 100).is_closest);
-    BOOST_TEST(lattice.near(x, 3, 100).empty());
+    BOOST_TEST(lattice.nearest_vectors(x, 3, 100).empty());
   }
 
   const Reduced_lattice lattice(good);
@@ -629,7 +629,7 @@ BOOST_AUTO_TEST_CASE(bad_input)
   {
     const Lattice_vector v = lattice.closest(x, 100);
     BOOST_TEST((v.coefficients.empty() && !v.is_closest && v.square_distance == infinity));
-    BOOST_TEST(lattice.near(x, 3, 100).empty());
+    BOOST_TEST(lattice.nearest_vectors(x, 3, 100).empty());
   }
   BOOST_TEST(lattice.closest(Eigen::Vector2d(4e15, -4e15), 100).is_closest);
 }

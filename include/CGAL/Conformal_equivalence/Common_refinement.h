@@ -477,12 +477,12 @@ std::array<NT, 3> input_barycentric(const Intrinsic_triangulation<NT>& input, co
   const std::size_t first = refinement.first_corner[f], last = refinement.first_corner[f + 1] - 1;
   const Index after = refinement.corner_halfedge[corner],
               before = refinement.corner_halfedge[corner == first ? last : corner - 1],
-              far = refinement.corner_halfedge[corner == last ? first : corner + 1];
+              beyond = refinement.corner_halfedge[corner == last ? first : corner + 1];
   const Index none = refinement.null_index, face = refinement.input_face[f], v = refinement.corner_vertex[corner];
   std::array<NT, 3> result = {{NT(0), NT(0), NT(0)}};
   if(v < refinement.number_of_input_vertices)
   {
-    Index h = after != none ? after : before != none ? input.next(before) : far != none ? input.previous(far) : 3 * face;
+    Index h = after != none ? after : before != none ? input.next(before) : beyond != none ? input.previous(beyond) : 3 * face;
     while(input.origin(h) != v) // at a corner between diagonals of a part no side is known
       h = input.next(h);
     result[h % 3] = NT(1);

@@ -381,7 +381,7 @@ public:
     for(std::size_t i = 0; i < p.cones.size(); ++i)
     {
       const Cone_excursion x = excursion(p, i, curvature[i]);
-      for(Index v : near(p.cones[i], reach))
+      for(Index v : vertices_around(p.cones[i], reach))
       {
         if(t_.is_border_vertex(v) || p.is_cone(v) || tried.count(std::make_pair(p.cones[i], v)) != 0)
           continue;
@@ -454,8 +454,8 @@ private:
       centre_change(p.u, d);
     else if(!correct(p, total, d))
       return false;
-    const double far = 2; // beyond it, first order means little
-    if(!(largest_entry(d) <= far))
+    const double longest_step = 2; // beyond it, first order means little
+    if(!(largest_entry(d) <= longest_step))
       return relax(p, 1);
     for(std::size_t v = 0; v < d.size(); ++v)
       p.u[v] += d[v];
@@ -508,7 +508,7 @@ private:
   }
 
   // The vertices within that distance in edges.
-  std::vector<Index> near(Index v, std::size_t distance) const
+  std::vector<Index> vertices_around(Index v, std::size_t distance) const
   {
     std::vector<char> is_seen(t_.number_of_vertices(), 0);
     std::vector<Index> result(1, v);
@@ -732,12 +732,12 @@ inline std::vector<long> nearest_integers(const std::vector<double>& x, long sum
     }
     return least <= sum && sum <= most;
   };
-  double far = 1;
-  while(!is_possible(far))
-    far *= 2;
+  double reach = 1;
+  while(!is_possible(reach))
+    reach *= 2;
   std::vector<double> bounds;
   for(double y : x)
-    for(long k = (std::max)(1l, long(std::floor(y - far))); double(k) <= y + far; ++k)
+    for(long k = (std::max)(1l, long(std::floor(y - reach))); double(k) <= y + reach; ++k)
       bounds.push_back(std::abs(y - double(k)));
   std::sort(bounds.begin(), bounds.end());
   std::size_t begin = 0, end = bounds.size(); // the first one that is possible
@@ -749,7 +749,7 @@ inline std::vector<long> nearest_integers(const std::vector<double>& x, long sum
     else
       begin = middle + 1;
   }
-  const double b = begin < bounds.size() ? bounds[begin] : far;
+  const double b = begin < bounds.size() ? bounds[begin] : reach;
 
   // from the nearest ones, those that cost least are moved by one until the sum is right
   long missing = sum;

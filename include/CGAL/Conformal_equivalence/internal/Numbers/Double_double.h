@@ -322,15 +322,15 @@ public:
                        min_exponent = Base::min_exponent + 53, max_exponent = Base::max_exponent,
                        min_exponent10 = -291, max_exponent10 = Base::max_exponent10;
 
-  static constexpr Type min() noexcept { return Type(0x1p-969); } // from here on all 106 bits are there
-  static constexpr Type max() noexcept { return Type((Base::max)(), 0x1.fffffffffffffp+969); }
+  static constexpr Type (min)() noexcept { return Type(0x1p-969); } // from here on all 106 bits are there
+  static constexpr Type (max)() noexcept { return Type((Base::max)(), 0x1.fffffffffffffp+969); }
   static constexpr Type lowest() noexcept { return Type(Base::lowest(), -0x1.fffffffffffffp+969); }
   static constexpr Type epsilon() noexcept { return Type(0x1p-104); } // 4 u^2
   static constexpr Type round_error() noexcept { return Type(1.); }
   static constexpr Type infinity() noexcept { return Type(Base::infinity()); }
   static constexpr Type quiet_NaN() noexcept { return Type(Base::quiet_NaN()); }
   static constexpr Type signaling_NaN() noexcept { return Type(0.); }
-  static constexpr Type denorm_min() noexcept { return min(); }
+  static constexpr Type denorm_min() noexcept { return (min)(); }
 };
 
 } // namespace std

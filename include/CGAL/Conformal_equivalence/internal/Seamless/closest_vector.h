@@ -303,7 +303,7 @@ public:
   // Scales by a power of two, so that no square overflows, and makes the matrix exactly symmetric. Its diagonal is positive.
   explicit Square_distance(const Eigen::MatrixXd& gram) : gram_(gram)
   {
-    int least = std::numeric_limits<int>::max(), largest = std::numeric_limits<int>::min();
+    int least = (std::numeric_limits<int>::max)(), largest = (std::numeric_limits<int>::min)();
     for(Eigen::Index i = 0; i < gram_.rows(); ++i)
     {
       const int e = std::ilogb(gram(i, i));
@@ -396,7 +396,7 @@ public:
 
   // The `most` nearest points, in ascending order of the distance, ties by coefficients. Fewer, or not the nearest, and with
   // `is_closest == false`, if that takes more than `most_nodes` nodes. O(d) at most for every node, O(d^2) for every point found.
-  std::vector<Lattice_vector> near(const Eigen::VectorXd& target, std::size_t most, std::size_t most_nodes) const
+  std::vector<Lattice_vector> nearest_vectors(const Eigen::VectorXd& target, std::size_t most, std::size_t most_nodes) const
   {
     Residual residual;
     const Lattice_vector first = nearest_plane(target, residual);

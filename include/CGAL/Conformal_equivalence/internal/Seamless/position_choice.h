@@ -119,7 +119,7 @@ public:
     {
       const Complex s = std::polar(size, 2 * CGAL_PI * k / (lattice_.order() * number_of_rotations));
       const Eigen::VectorXd target = real_coefficients(s * flat_coefficients_);
-      const std::vector<Lattice_vector> vectors = is_enumerated ? reduced_.near(target, 2, most_nodes)
+      const std::vector<Lattice_vector> vectors = is_enumerated ? reduced_.nearest_vectors(target, 2, most_nodes)
                                                                 : std::vector<Lattice_vector>(1, reduced_.babai(target));
       for(std::size_t i = 0; i < vectors.size(); ++i)
         add_candidate(vectors[i], s, i == 0 && vectors[i].is_closest, result);

@@ -397,8 +397,8 @@ private:
     if(is_lost_)
       return trust_region_step(u);
     Vertex_vector d;
-    const double far = 10; // in u
-    if(!newton_direction(u, d) || (!energy_.broken_faces().empty() && !(largest_entry(d) <= far)))
+    const double longest_step = 10; // in u
+    if(!newton_direction(u, d) || (!energy_.broken_faces().empty() && !(largest_entry(d) <= longest_step)))
       return begin_trust_region(u);
     const double slope = dot(residual_, d);
     Vertex_vector trial(u.size()), r;

@@ -169,7 +169,7 @@ public:
   template <typename Number>
   bool operator()(std::vector<Light_vector<Number> >& points) const
   {
-    const double close = 1e-14, far = 1e-12;
+    const double centred = 1e-14, nearly_centred = 1e-12;
     for(std::size_t i = 0; i < points.size(); ++i)
       if(!(weight_[i] < 0.5) && (!is_planar_ || points[i][1] == 0))
         return false;
@@ -181,12 +181,12 @@ public:
       for(const Light_vector<Number>& v : points)
         p.push_back(rounded(v));
       const double size = moments(p).first.norm();
-      if(size <= close || (size <= far && size > last / 2))
+      if(size <= centred || (size <= nearly_centred && size > last / 2))
         return true;
       last = size;
       transform(find<Number>(std::move(p)), points);
     }
-    return last <= far;
+    return last <= nearly_centred;
   }
 
 private:
