@@ -11,6 +11,7 @@
 #include "include/test_meshes.h"
 
 #include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
+#include <CGAL/Conformal_equivalence/verify_layout.h>
 
 #include <algorithm>
 #include <array>

@@ -9,6 +9,7 @@
 
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/flatten_refined.h>
+#include <CGAL/Conformal_equivalence/verify_layout.h>
 
 #include <algorithm>
 #include <array>

@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Double_double against 400 bits with the bounds of its header, and the predicates on
-// lengths against rationals of another library.
+// lengths and on points of the plane against rationals of another library.
 
 #define BOOST_TEST_MODULE test_length_predicates
 #include "include/boost_test.h"
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include <array>
 #include <cfenv>
 #include <cmath>
 #include <cstdint>
@@ -434,4 +436,50 @@ BOOST_AUTO_TEST_CASE(scaled_triangle_inequality_where_products_leave_the_range)
   BOOST_CHECK(CEi::is_scaled_triangle(1., 1., 1., 3., 4., 5.) && !CEi::is_scaled_triangle(1., 1., 1., 3., 4., 7.));
   BOOST_CHECK(!CEi::is_scaled_triangle(1., 1., 1., 7., 4., 3.) && !CEi::is_scaled_triangle(1., 1., 1., 4., 7., 3.));
   BOOST_CHECK(CEi::is_scaled_triangle(2., 1., 1., 3., 7., 4.)); // scaled: 6, 7, 8
+}
+
+// Points of a few kinds: on a small grid, random in the whole range of `double`, subnormal, near 1, near overflow, and of exponents that
+// have nothing to do with each other; a quarter of the triples is collinear but for rounding.
+BOOST_AUTO_TEST_CASE(turns_are_those_of_rational_points)
+{
+  const auto few = [](int n) { return double(int(generator() % std::uint64_t(2 * n + 1)) - n); };
+  const auto coordinate = [&](int kind)
+  {
+    switch(kind)
+    {
+      case 0: return few(3);
+      case 1: return random_with_exponent(1000);
+      case 2: return std::ldexp(few(2), -1074);
+      case 3: return 1 + std::ldexp(few(4), -52);
+      case 4: return std::ldexp(few(4), 1020);
+      default: return std::ldexp(few(4), int(generator() % 2090) - 1074);
+    }
+  };
+  const auto sign = [](const auto& p, const auto& q, const auto& r)
+  {
+    const Rational x = rational(p[0]), y = rational(p[1]);
+    return CGAL::sign(((rational(q[0]) - x) * (rational(r[1]) - y)).compare((rational(q[1]) - y) * (rational(r[0]) - x)));
+  };
+  for(int i = 0; i < 20000; ++i)
+  {
+    const int kind = int(generator() % 6);
+    std::array<std::array<double, 2>, 3> p;
+    for(std::array<double, 2>& z : p)
+      z = {{ coordinate(kind), coordinate(kind) }};
+    if(generator() % 4 == 0 && std::isfinite(2 * p[1][0] - p[0][0]) && std::isfinite(2 * p[1][1] - p[0][1]))
+      p[2] = {{ 2 * p[1][0] - p[0][0], 2 * p[1][1] - p[0][1] }};
+    const CGAL::Sign expected = sign(p[0], p[1], p[2]);
+    BOOST_REQUIRE_EQUAL(int(CEi::turn(p[0], p[1], p[2])), int(expected));
+    BOOST_REQUIRE_EQUAL(CEi::is_left_turn(p[0], p[1], p[2]), expected == CGAL::POSITIVE);
+  }
+  const auto pair = [&] { return Double_double(1 + std::ldexp(few(2), -52), std::ldexp(few(2), generator() % 2 ? -105 : -900)); };
+  for(int i = 0; i < 5000; ++i)
+  {
+    std::array<std::array<Double_double, 2>, 3> p;
+    for(std::array<Double_double, 2>& z : p)
+      z = {{ pair(), pair() }};
+    BOOST_REQUIRE_EQUAL(CEi::is_left_turn(p[0], p[1], p[2]), sign(p[0], p[1], p[2]) == CGAL::POSITIVE);
+  }
+  const double infinity = std::numeric_limits<double>::infinity();
+  BOOST_TEST(!CEi::is_left_turn(std::array<double, 2>{{0, 0}}, {{infinity, 0}}, {{0, 1}}));
 }

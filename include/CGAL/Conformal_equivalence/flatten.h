@@ -22,7 +22,6 @@
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/projective_interpolation.h>
-#include <CGAL/Conformal_equivalence/verify_layout.h>
 
 #include <CGAL/boost/graph/iterator.h>
 

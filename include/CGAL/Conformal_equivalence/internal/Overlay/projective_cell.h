@@ -43,7 +43,7 @@ bool contains(const Cell_corner<Number, NT>* first, const Cell_corner<Number, NT
     bool is_above = false, is_below = false;
     for(const Cell_corner<Number, NT>* c = first; c != last; ++c)
     {
-      if(!is_finite_point(c->uv))
+      if(!has_finite_coordinates(c->uv))
         return false;
       is_above = is_above || c->uv[k] <= uv[k];
       is_below = is_below || uv[k] <= c->uv[k];

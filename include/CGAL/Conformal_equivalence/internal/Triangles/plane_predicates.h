@@ -5,9 +5,9 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_PLANE_PREDICATES_H
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
-#include <CGAL/Conformal_equivalence/verify_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Exact_product_sum.h>
 
-#include <CGAL/Exact_rational.h>
+#include <CGAL/enum.h>
 
 #include <algorithm>
 #include <array>
@@ -20,27 +20,59 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-inline Exact_rational exact_number(const Double_double& x) { return Exact_rational(x.hi) + Exact_rational(x.lo); }
-
 template <typename NT>
-bool is_finite_point(const std::array<NT, 2>& z)
+bool has_finite_coordinates(const std::array<NT, 2>& z)
 {
   return std::isfinite(static_cast<double>(z[0])) && std::isfinite(static_cast<double>(z[1]));
+}
+
+// Adds the product of two sums of two `double`, or subtracts it.
+inline void add_product(const Double_double& a, const Double_double& b, double sign, Exact_product_sum& sum)
+{
+  for(double x : {a.hi, a.lo})
+    for(double y : {b.hi, b.lo})
+      sum.add_product(sign * x, y);
+}
+
+// Which way one turns at q on the way from p over q to r: exactly. \pre the coordinates are finite
+inline Orientation exact_turn(const std::array<Double_double, 2>& p, const std::array<Double_double, 2>& q,
+                              const std::array<Double_double, 2>& r)
+{
+  Exact_product_sum sum; // (q - p) x (r - p), multiplied out, where p x p vanishes
+  const auto add_cross_product = [&](const std::array<Double_double, 2>& a, const std::array<Double_double, 2>& b)
+  {
+    add_product(a[0], b[1], 1, sum);
+    add_product(a[1], b[0], -1, sum);
+  };
+  add_cross_product(p, q);
+  add_cross_product(q, r);
+  add_cross_product(r, p);
+  return Orientation(sum.sign());
+}
+
+// The same for `double`, where the determinant as computed nearly always tells: its error is less than two units in the last
+// place of the sum of its two products, in whatever way numbers are rounded, if none of them has underflowed.
+inline Orientation turn(const std::array<double, 2>& p, const std::array<double, 2>& q, const std::array<double, 2>& r)
+{
+  const double left = (q[0] - p[0]) * (r[1] - p[1]), right = (q[1] - p[1]) * (r[0] - p[0]);
+  const double size = std::abs(left) + std::abs(right), error = 4 * std::numeric_limits<double>::epsilon() * size;
+  const double least_size = 1e-290, largest_size = 1e300; // outside of them the bound may not hold, for underflow or overflow
+  if(size > least_size && size < largest_size && std::abs(left - right) > error)
+    return left > right ? LEFT_TURN : RIGHT_TURN;
+  const auto wide = [](const std::array<double, 2>& z) { return std::array<Double_double, 2>{{ z[0], z[1] }}; };
+  return exact_turn(wide(p), wide(q), wide(r));
 }
 
 // Whether p, q, r turn left: exactly for `double` ...
 inline bool is_left_turn(const std::array<double, 2>& p, const std::array<double, 2>& q, const std::array<double, 2>& r)
 {
-  return triangle_orientation({{Plane_point(p[0], p[1]), Plane_point(q[0], q[1]), Plane_point(r[0], r[1])}}) == LEFT_TURN;
+  return has_finite_coordinates(p) && has_finite_coordinates(q) && has_finite_coordinates(r) && turn(p, q, r) == LEFT_TURN;
 }
 
 // ... and for pairs of them;
 inline bool is_left_turn(const std::array<Double_double, 2>& p, const std::array<Double_double, 2>& q, const std::array<Double_double, 2>& r)
 {
-  if(!is_finite_point(p) || !is_finite_point(q) || !is_finite_point(r))
-    return false;
-  const Exact_rational x = exact_number(p[0]), y = exact_number(p[1]);
-  return (exact_number(q[0]) - x) * (exact_number(r[1]) - y) > (exact_number(q[1]) - y) * (exact_number(r[0]) - x);
+  return has_finite_coordinates(p) && has_finite_coordinates(q) && has_finite_coordinates(r) && exact_turn(p, q, r) == LEFT_TURN;
 }
 
 // for other numbers `true` only if that is certain: the two differences and the product have an error of one unit each.
@@ -48,7 +80,7 @@ template <typename NT>
 bool is_left_turn(const std::array<NT, 2>& p, const std::array<NT, 2>& q, const std::array<NT, 2>& r)
 {
   using std::abs;
-  if(!is_finite_point(p) || !is_finite_point(q) || !is_finite_point(r))
+  if(!has_finite_coordinates(p) || !has_finite_coordinates(q) || !has_finite_coordinates(r))
     return false;
   const NT left = (q[0] - p[0]) * (r[1] - p[1]), right = (q[1] - p[1]) * (r[0] - p[0]);
   const NT bound = 8 * std::numeric_limits<NT>::epsilon() * (abs(left) + abs(right));
