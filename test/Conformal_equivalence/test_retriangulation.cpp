@@ -10,6 +10,7 @@
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/ideal_delaunay_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Newton_method.h>

@@ -33,6 +33,24 @@ struct Transition
   std::array<NT, 2> translation;     ///< a point of the plane
 };
 
+/// \ingroup PkgConformalEquivalenceStatus
+///
+/// The lattice of a flat torus, the closed surface of genus 1 that needs no cone: laid out again and again, moved by all
+/// sums of multiples of the periods, the torus covers the plane once.
+template <typename NT = double>
+struct Period_lattice
+{
+  /// a face of the torus: its index in an `Intrinsic_triangulation`, its position in `faces(tm)` for a mesh
+  std::size_t face = 0;
+  /// The two periods, in the coordinates of the layout. The basis is reduced: the first is a shortest period, the
+  /// second a shortest one of the others; the second lies to the left of the first.
+  std::array<std::array<NT, 2>, 2> periods = {{ {{NT(0), NT(0)}}, {{NT(0), NT(0)}} }};
+  /// The second period divided by the first, in complex numbers: the point of the standard fundamental domain,
+  /// |Re tau| <= 1/2, |tau| >= 1, that tells the conformal type of the torus. Of two such points on the boundary of the
+  /// domain it is the right one (Re tau >= 0); what is on the boundary is decided up to 1e-10.
+  std::array<NT, 2> tau = {{NT(0), NT(1)}};
+};
+
 /// \ingroup PkgConformalEquivalenceLayout
 ///
 /// A point of the plane for every corner of a triangulation.

@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/triangulation_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>

@@ -8,7 +8,7 @@
 #include "Scanner.h"
 
 #include <CGAL/Conformal_equivalence/map_to_sphere.h>
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/options.h>
 #include <CGAL/Conformal_equivalence/version.h>
 
 #include <boost/program_options.hpp>

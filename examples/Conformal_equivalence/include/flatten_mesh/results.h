@@ -8,8 +8,8 @@
 #include "precision.h"
 
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
+#include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
-#include <CGAL/Conformal_equivalence/Status.h>
 
 #include <array>
 #include <cstddef>

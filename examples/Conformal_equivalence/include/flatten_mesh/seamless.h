@@ -9,9 +9,9 @@
 #include "mesh.h"
 #include "results.h"
 
+#include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
 #include "flatten_mesh/layout_seams.h"
-#include <CGAL/Conformal_equivalence/Status.h>
 
 #include <array>
 #include <cmath>

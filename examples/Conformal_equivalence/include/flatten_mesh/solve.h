@@ -16,10 +16,11 @@
 #include "Stopwatch.h"
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+#include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/options.h>
 #include <CGAL/Conformal_equivalence/place_cones.h>
-#include <CGAL/Conformal_equivalence/Status.h>
 
 #include <algorithm>
 #include <functional>

@@ -21,7 +21,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_SEARCH_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
 

@@ -11,8 +11,10 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_RECTANGLE_CORNERS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_RECTANGLE_CORNERS_H
 
+#include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
+#include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
 #include <array>

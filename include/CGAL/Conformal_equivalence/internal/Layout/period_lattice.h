@@ -9,7 +9,6 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_PERIOD_LATTICE_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <algorithm>

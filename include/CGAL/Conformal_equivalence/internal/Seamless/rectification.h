@@ -11,6 +11,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_RECTIFICATION_H
 
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
+#include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>

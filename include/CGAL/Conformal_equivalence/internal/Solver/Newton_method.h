@@ -20,9 +20,11 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NEWTON_METHOD_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NEWTON_METHOD_H
 
+#include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
 #include <cmath>

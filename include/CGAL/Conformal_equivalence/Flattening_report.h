@@ -1,0 +1,223 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file Flattening_report.h
+/// What the functions of this package report about a mesh: what happened, the elements at fault, what was found, and one line of English
+/// that tells it.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_FLATTENING_REPORT_H
+#define CGAL_CONFORMAL_EQUIVALENCE_FLATTENING_REPORT_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/Statistics.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
+
+#include <boost/graph/graph_traits.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// A cone of the flat metric that was found: an interior vertex with an angle sum other than 2 pi, or of fixed u.
+template <typename TriangleMesh>
+struct Cone
+{
+  typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex; ///< where it is
+  std::size_t vertex_index; ///< position of `vertex` in `vertices(tm)`
+  double angle;             ///< its angle sum, in radians: as prescribed, or as found for a free cone
+  bool is_free;             ///< whether u was fixed, and the angle found
+  double free_angle = 0;    ///< of a cone that was placed and rounded: its angle sum before, in radians; zero otherwise
+  std::array<std::int64_t, 2> lattice_point = {{0, 0}}; ///< of a seamless layout: where it lies, see `Tiling`
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// The motion z -> rotation * z + translation of the plane, in complex numbers, that takes one side of a
+/// seam edge to the other: `halfedge`, as laid out with its face, to its opposite, as laid out with the other face.
+template <typename TriangleMesh>
+struct Seam_transition
+{
+  typename boost::graph_traits<TriangleMesh>::halfedge_descriptor halfedge; ///< one side
+  std::array<double, 2> rotation;    ///< of absolute value 1
+  std::array<double, 2> translation; ///< a point of the plane
+  int quanta = 0;                    ///< of a seamless layout: the rotation, exactly, in multiples of 2 pi / n, from 0 to n - 1
+  std::array<std::int64_t, 2> lattice_translation = {{0, 0}}; ///< of a seamless layout: the translation, exactly, see `Tiling`
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+///
+/// How a seamless layout fits the lattice of a texture. The lattice is Z + Z theta in the complex plane: for n = 2 and 4 the Gaussian
+/// integers, theta = i, and the tiles are unit squares with the integers in their centres; for n = 3 and 6 the Eisenstein integers,
+/// theta = e^{i pi / 3}, and the tiles are regular hexagons about them. A point a + b theta of the lattice is given as the pair of
+/// integers (a, b).
+struct Tiling
+{
+  int symmetry = 0;             ///< n: motions across seams turn by multiples of 2 pi / n. Zero: the layout is not seamless
+  double number_of_tiles = 0;   ///< the area of the layout over that of a tile
+  double scale = 0;             ///< by which lengths of the flat metric were multiplied
+  double rotation = 0;          ///< by which the canonical layout was turned (radians)
+  double mean_distortion = 1;   ///< mean quasi-conformal factor of the deformation, from the flat surface to the layout; 1 if none was needed
+  double maximum_distortion = 1; ///< the largest one
+  double mean_factor_before = 1; ///< mean quasi-conformal factor, from the mesh, of the conformal layout that was deformed
+  double mean_factor = 1;       ///< the same of the result. Means are weighted by the areas of the faces of the mesh
+  bool is_closest = true;       ///< whether the positions of the cones are proven to be those of least distortion for scale and rotation
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// What a function of this package reports about a mesh.
+template <typename TriangleMesh>
+struct [[nodiscard]] Flattening_report
+{
+  typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor; ///< a vertex of the mesh
+  typedef typename boost::graph_traits<TriangleMesh>::edge_descriptor   edge_descriptor;   ///< an edge of the mesh
+  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor   face_descriptor;   ///< a face of the mesh
+
+  Status status = Status::OK; ///< what happened
+
+  /// How much: see the documentation of the status.
+  double amount = 0;
+
+  /// \name Elements at fault
+  /// Each with its position in `vertices(tm)` and `faces(tm)`; an edge is named
+  /// by the positions of its two vertices.
+  /// @{
+  std::vector<vertex_descriptor> vertices;                 ///< vertices at fault
+  std::vector<edge_descriptor> edges;                      ///< edges at fault
+  std::vector<face_descriptor> faces;                      ///< faces at fault
+  std::vector<std::size_t> vertex_indices;                 ///< positions of `vertices`
+  std::vector<std::array<std::size_t, 2> > edge_indices;   ///< positions of the ends of `edges`
+  std::vector<std::size_t> face_indices;                   ///< positions of `faces`
+  /// @}
+
+  Surface_topology topology; ///< what the surface was found to be
+  Statistics statistics;     ///< figures of the run
+
+  /// Largest relative difference of an edge length in the layout from the length
+  /// that the metric gives it; zero if nothing was laid out.
+  double layout_length_error = 0;
+
+  /// \name What was found
+  /// Empty unless there is a layout.
+  /// @{
+  std::vector<Cone<TriangleMesh> > cones;                    ///< in the order of `vertices(tm)`
+  std::vector<Seam_transition<TriangleMesh> > transitions;   ///< one for every edge of the seam; none across the borders of charts
+  std::vector<Period_lattice<> > lattices;                   ///< of the tori, in the order of their first faces
+
+  Tiling tiling;                                             ///< of a seamless layout
+
+  /// cones that were placed, but became flat when their angles were rounded
+  std::vector<vertex_descriptor> flattened_cones;
+
+  /// border edges that were flipped away: with fixed u at both ends these need not be as long as that makes them
+  std::vector<edge_descriptor> lost_border_edges;
+
+  /// faces whose images are positive in the common refinement, while the straight triangles between the images of their corners are
+  /// flipped or flat; none unless a refinement was asked for
+  std::vector<face_descriptor> bent_faces;
+
+  /// on the sphere and the disk: faces whose images, or parts of them, are positive as they were computed, but not with the points
+  /// rounded to the number type of the result
+  std::vector<face_descriptor> rounded_faces;
+
+  /// on the sphere: the sum of the solid angles of all triangles of the polyhedron, 4 pi
+  double solid_angle = 0;
+
+  /// @}
+
+  /// is `true` iff the result is usable.
+  explicit operator bool() const { return is_success(status); }
+};
+
+namespace internal {
+
+// A number with six significant digits, as streams print it.
+inline std::string number_text(double x)
+{
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%g", x);
+  return text.data();
+}
+
+// "; vertices 1, 2, 3": the first ten elements, each as `text_of_element` tells it.
+template <typename Range, typename Text>
+std::string elements_text(const char* singular, const char* plural, const Range& elements, Text text_of_element)
+{
+  if(elements.empty())
+    return std::string();
+  const std::size_t shown = (std::min)(elements.size(), std::size_t(10));
+  std::string result = std::string("; ") + (elements.size() == 1 ? singular : plural);
+  for(std::size_t i = 0; i < shown; ++i)
+    result += (i == 0 ? " " : ", ") + text_of_element(elements[i]);
+  if(shown < elements.size())
+    result += ", ... (" + std::to_string(elements.size()) + " in all)";
+  return result;
+}
+
+inline std::string elements_text(const std::vector<std::size_t>& vertices, const std::vector<std::array<std::size_t, 2> >& edges,
+                                 const std::vector<std::size_t>& faces)
+{
+  const auto number = [](std::size_t i) { return std::to_string(i); };
+  const auto ends = [](const std::array<std::size_t, 2>& e) { return std::to_string(e[0]) + '-' + std::to_string(e[1]); };
+  return elements_text("vertex", "vertices", vertices, number) + elements_text("edge", "edges", edges, ends)
+         + elements_text("face", "faces", faces, number);
+}
+
+inline std::string topology_text(const Surface_topology& topology)
+{
+  const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s"); };
+  return ": found " + count(topology.number_of_components, "component") + ", " + count(topology.number_of_borders, "border")
+         + ", genus " + std::to_string(topology.genus);
+}
+
+// What `amount` is, for the statuses that have one.
+inline std::string amount_text(Status status, double amount)
+{
+  const std::string number = number_text(amount);
+  switch(status)
+  {
+    case Status::CONVERGED_TO_ROUNDING:
+    case Status::ITERATIONS_EXHAUSTED:  return ": residual " + number + " radians";
+    case Status::GAUSS_BONNET_VIOLATED: return " by " + number + " radians";
+    case Status::NO_ANGLE_LEFT:
+    case Status::ANGLE_OUT_OF_RANGE:    return ": " + number + " radians";
+    case Status::MISSING_CONDITION:
+      return amount == 0 ? std::string()
+                         : ": a closed surface of genus other than 1 needs cones, whose curvatures (2 pi - angle) sum up to "
+                           + number + " radians";
+    case Status::TOO_MANY_CROSSINGS:
+    case Status::TOO_MANY_CONES:
+    case Status::BOUND_NOT_MET:         return ": " + number;
+    case Status::NOT_QUANTIZABLE:       return ": they must sum up to " + number + " radians";
+    case Status::NOT_SEAMLESS:          return ": they differ by a rotation by " + number + " radians";
+    default:                            return std::string();
+  }
+}
+
+} // namespace internal
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// returns one line of English that says what happened, by how much, and where
+/// (elements by position, the first ten of each kind).
+template <typename TriangleMesh>
+std::string message(const Flattening_report<TriangleMesh>& report)
+{
+  const bool is_about_topology = report.status == Status::WRONG_TOPOLOGY || report.status == Status::SEAM_LEAVES_NO_DISK;
+  return message(report.status) + internal::amount_text(report.status, report.amount)
+         + (is_about_topology ? internal::topology_text(report.topology) : std::string())
+         + internal::elements_text(report.vertex_indices, report.edge_indices, report.face_indices);
+}
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_FLATTENING_REPORT_H

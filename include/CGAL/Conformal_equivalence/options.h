@@ -1,0 +1,70 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file options.h
+/// The choices that named parameters take: enumerations, and the visitor that does nothing.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_OPTIONS_H
+#define CGAL_CONFORMAL_EQUIVALENCE_OPTIONS_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <cstddef>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// Whether the triangulation may be changed on the way to the metric.
+enum class Retriangulation
+{
+  NEVER,       ///< the fixed triangulation of the paper; the minimizer may be no metric
+  WHEN_NEEDED, ///< the fixed triangulation first, Ptolemy flips only if it has no solution
+  ALWAYS       ///< intrinsic Delaunay triangulation first: the result depends on the surface alone
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// Whether edges of the border may be flipped, too, where the triangulation may be changed.
+enum class Border_edges
+{
+  KEPT,     ///< no: all of them keep the length e^{(u_i + u_j) / 2} l; where that leaves triangles at the border broken, there is no metric
+  /// only where there is no metric with all border edges kept: then on the double of the surface. The border consists of straight lines
+  /// then, too
+  FLIPPABLE
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// How Newton's method is made globally convergent.
+enum class Newton_strategy
+{
+  LINE_SEARCH,  ///< inexact Newton steps, line search on the directional derivative; a trust region where triangles are broken
+  TRUST_REGION  ///< Newton-Steihaug: truncated conjugate gradients in a trust region
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// What a visitor is told that begins.
+enum class Stage
+{
+  IMPORT, ///< from the mesh to arrays
+  SOLVE,  ///< Newton's method
+  CUT,    ///< cutting the surface open
+  LAYOUT, ///< from lengths to points of the plane
+  VERIFY  ///< orientations of the triangles
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// The visitor that does nothing: model of `ConformalEquivalenceVisitor`.
+struct Default_visitor
+{
+  /// does nothing.
+  void on_stage(Stage) {}
+  /// does nothing.
+  void on_iteration(std::size_t /* iteration */, double /* residual */) {}
+  /// returns `true`.
+  bool go_further() { return true; }
+};
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_OPTIONS_H
