@@ -26,8 +26,8 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
-#include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Box_tree.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
@@ -69,9 +69,12 @@ namespace Conformal_equivalence {
 /// with barycentric coordinates b of the corners, as points of the input face, the homogeneous coordinates are the sum
 /// of the b w (x, y, 1) with the weight w and the point (x, y) of each corner.
 ///
+/// The status is `OK`, `EMPTY_MESH`, `TOO_MANY_CROSSINGS` (more than allowed), or `OUT_OF_MEMORY`; `amount` is the number of crossings, for a
+/// metric of the double that of both halves.
+///
 /// \tparam NT_ number type of the coordinates: that of the metric
 template <typename NT_ = double>
-struct Common_refinement
+struct Common_refinement : public Outcome
 {
   typedef NT_ NT;               ///< number type of the coordinates
   typedef std::uint32_t Index;  ///< of vertices, edges and faces
@@ -124,15 +127,8 @@ struct Common_refinement
 
   /// @}
 
-  /// `OK`, `EMPTY_MESH`, `TOO_MANY_CROSSINGS` (more than allowed), or `OUT_OF_MEMORY`
-  Status status = Status::OK;
-  double amount = 0;                 ///< the number of crossings; for a metric of the double, of both halves
-
   Index number_of_vertices() const { return number_of_input_vertices + Index(crossings.size()); } ///< of the overlay
   Index number_of_faces() const { return Index(input_face.size()); }                             ///< of the overlay
-
-  /// is `true` iff there is a refinement.
-  explicit operator bool() const { return is_success(status); }
 
   /// is `true` iff all faces are positive, as rounded.
   bool is_positive() const { return flipped_faces.empty() && rounded_faces.empty(); }
@@ -363,11 +359,7 @@ Conformal_metric<Other_NT> convert_metric(const Conformal_metric<NT>& metric)
     result.log_scale_factors.push_back(Other_NT(u));
   for(const auto& s : metric.scale_factors)
     result.scale_factors.push_back(internal::convert_number<Other_NT>(s));
-  result.status = metric.status;
-  result.amount = metric.amount;
-  result.vertices = metric.vertices;
-  result.edges = metric.edges;
-  result.faces = metric.faces;
+  result.set_outcome(metric);
   result.statistics = metric.statistics;
   return result;
 }
@@ -437,8 +429,7 @@ Common_refinement<NT> triangulate_refinement(const Common_refinement<NT>& refine
   result.crossings = refinement.crossings;
   result.weights = refinement.weights;
   result.angle_sums = refinement.angle_sums;
-  result.status = refinement.status;
-  result.amount = refinement.amount;
+  result.set_outcome(refinement);
   result.first_corner.push_back(0);
   for(Index f = 0; f < refinement.number_of_faces(); ++f)
   {

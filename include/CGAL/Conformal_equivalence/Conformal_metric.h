@@ -11,8 +11,8 @@
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
-#include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 
 #include <cmath>
@@ -25,9 +25,9 @@ namespace Conformal_equivalence {
 /// \ingroup PkgConformalEquivalenceSolver
 ///
 /// What the solver returns: the metric l~_ij = e^{(u_i + u_j) / 2} l_ij (equation (2)), or
-/// the reason why there is none.
+/// the reason why there is none, and the elements at fault.
 template <typename NT_ = double>
-struct Conformal_metric
+struct Conformal_metric : public Outcome
 {
   typedef NT_ NT;               ///< number type of lengths and of u
   typedef std::uint32_t Index;  ///< of vertices, edges and faces
@@ -54,19 +54,7 @@ struct Conformal_metric
   /// made with these are exactly conformally equivalent to the given ones.
   std::vector<Wide_number> scale_factors;
 
-  Status status = Status::OK;                 ///< whether there is a metric, or why not
-  double amount = 0;                          ///< see `Status`
-  /// \name Elements at fault
-  /// @{
-  std::vector<Index> vertices; ///< vertices at fault
-  std::vector<Index> edges;    ///< edges at fault
-  std::vector<Index> faces;    ///< faces at fault
-  /// @}
-
   Statistics statistics;                      ///< figures of the run
-
-  /// is `true` iff the metric is usable.
-  explicit operator bool() const { return is_success(status); }
 
   /// is `true` iff `triangulation` is not the one given.
   bool is_retriangulated() const { return is_doubled || !flips.empty(); }

@@ -10,8 +10,7 @@
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
-#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
 
 #include <cstdint>
 #include <vector>
@@ -21,13 +20,11 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceLayout
 ///
-/// The interior edges along which a surface is cut, as found by `compute_cut_graph()` or set by the user.
-struct Cut_graph
+/// The interior edges along which a surface is cut, as found by `compute_cut_graph()` or set by the user. Elements at fault: `edges`, and
+/// in `faces` one face of every component at fault.
+struct Cut_graph : public Outcome
 {
   std::vector<char> is_cut;           ///< by edge of the input triangulation; empty: nothing is cut
-  Status status = Status::OK;         ///< whether the surface could be cut
-  std::vector<std::uint32_t> edges;   ///< edges at fault
-  std::vector<std::uint32_t> faces;   ///< one face of every component at fault
 
   /// The system of loops: 2g of them for a surface of genus g, each a chain of halfedges of the input triangulation
   /// in order. The loops of one component begin and end at one base vertex, or on one border; a
@@ -37,9 +34,6 @@ struct Cut_graph
 
   /// is `true` iff the edge `e` is cut.
   bool operator[](std::uint32_t e) const { return !is_cut.empty() && is_cut[e] != 0; }
-
-  /// is `true` iff the surface could be cut.
-  explicit operator bool() const { return is_success(status); }
 };
 
 } // namespace Conformal_equivalence

@@ -13,7 +13,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
 #include <CGAL/Conformal_equivalence/mollify.h>
@@ -475,6 +475,40 @@ void name_elements(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vecto
     report.faces.push_back(mesh.face(f));
     report.face_indices.push_back(mesh.position_of_face(f));
   }
+}
+
+// The vertices of a surface among the ones given and those of faces of another triangulation of it, in increasing order. What is no vertex
+// of the surface, but of its mirror image or new, has the larger numbers there.
+template <typename NT>
+std::vector<std::uint32_t> with_vertices_of_faces(const Intrinsic_triangulation<NT>& surface, std::vector<std::uint32_t> vertices,
+                                                  const Intrinsic_triangulation<NT>& t, const std::vector<std::uint32_t>& faces)
+{
+  for(std::uint32_t f : faces)
+    for(std::uint32_t h = 3 * f; h < 3 * f + 3; ++h)
+      vertices.push_back(t.origin(h));
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  vertices.erase(std::lower_bound(vertices.begin(), vertices.end(), surface.number_of_vertices()), vertices.end());
+  return vertices;
+}
+
+// Tells what became of a computation on the triangulation of the mesh, with the elements at fault.
+template <typename TriangleMesh, typename NT>
+void report_outcome(const Imported_mesh<TriangleMesh, NT>& mesh, const Outcome& outcome, Flattening_report<TriangleMesh>& report)
+{
+  report.status = outcome.status;
+  report.amount = outcome.amount;
+  name_elements(mesh, outcome.vertices, outcome.edges, outcome.faces, report);
+}
+
+// The same for a computation that has changed the triangulation to `t`: faces are told by those of their vertices that the mesh has.
+template <typename TriangleMesh, typename NT>
+void report_outcome(const Imported_mesh<TriangleMesh, NT>& mesh, const Outcome& outcome, const Intrinsic_triangulation<NT>& t,
+                    Flattening_report<TriangleMesh>& report)
+{
+  report.status = outcome.status;
+  report.amount = outcome.amount;
+  name_elements(mesh, with_vertices_of_faces(mesh.triangulation, outcome.vertices, t, outcome.faces), {}, {}, report);
 }
 
 // What the import of a mesh found.

@@ -10,10 +10,10 @@
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
-#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -53,9 +53,9 @@ struct Period_lattice
 
 /// \ingroup PkgConformalEquivalenceLayout
 ///
-/// A point of the plane for every corner of a triangulation.
+/// A point of the plane for every corner of a triangulation. Its status is `OK`, or `EMPTY_MESH` if there is no face.
 template <typename NT_ = double>
-struct Layout
+struct Layout : public Outcome
 {
   typedef NT_ NT; ///< number type of the coordinates
 
@@ -69,9 +69,6 @@ struct Layout
   std::vector<NT> straight_lengths;
   std::vector<Transition<NT> > transitions;  ///< one for every cut edge, by index
   std::vector<Period_lattice<NT> > lattices; ///< of the flat tori, by their first face
-
-  /// `OK`, or `EMPTY_MESH`: there is no face
-  Status status = Status::OK;
 };
 
 /// \ingroup PkgConformalEquivalenceEnums

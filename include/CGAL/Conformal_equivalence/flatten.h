@@ -85,21 +85,6 @@ std::vector<std::uint32_t> interior_cones(const Intrinsic_triangulation<NT>& t, 
   return result;
 }
 
-// The vertices of a surface among the ones given and those of faces of another triangulation of it, in increasing order. What is no vertex of
-// the surface, but of its mirror image or new, has the larger numbers there.
-template <typename NT>
-std::vector<std::uint32_t> with_vertices_of_faces(const Intrinsic_triangulation<NT>& surface, std::vector<std::uint32_t> vertices,
-                                                  const Intrinsic_triangulation<NT>& t, const std::vector<std::uint32_t>& faces)
-{
-  for(std::uint32_t f : faces)
-    for(std::uint32_t h = 3 * f; h < 3 * f + 3; ++h)
-      vertices.push_back(t.origin(h));
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  vertices.erase(std::lower_bound(vertices.begin(), vertices.end(), surface.number_of_vertices()), vertices.end());
-  return vertices;
-}
-
 // The map of initial u, if there is one, keyed by indices.
 template <typename TriangleMesh, typename NT, typename NamedParameters>
 auto indexed_initial_guess(const Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& np)

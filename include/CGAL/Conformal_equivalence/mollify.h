@@ -13,7 +13,7 @@
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
@@ -35,21 +35,14 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceMetric
 ///
-/// What `mollify()` returns.
+/// What `mollify()` returns. Its status is `OK`, or `INVALID_NUMBER`: some lengths, those of `edges`, are negative or not finite.
 template <typename NT_ = double>
-struct Mollified_metric
+struct Mollified_metric : public Outcome
 {
   typedef NT_ NT;                            ///< number type of the lengths
 
   Intrinsic_triangulation<NT> triangulation; ///< with the new lengths; as given if `status` is not `OK`
   std::vector<NT> added;                     ///< by component, in the order of `connected_components()`: what was added to its lengths
-
-  /// `OK`, or `INVALID_NUMBER`: some lengths are negative or not finite
-  Status status = Status::OK;
-  std::vector<std::uint32_t> edges;          ///< edges at fault
-
-  /// is `true` iff every triangle is as it should be.
-  explicit operator bool() const { return is_success(status); }
 };
 
 namespace internal {

@@ -19,7 +19,7 @@
 
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
@@ -33,12 +33,9 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-struct Feasibility
+// Whether there can be a metric; if closed surfaces lack cones, `faces` has one face of each.
+struct Feasibility : public Outcome
 {
-  Status status = Status::OK;
-  double amount = 0;
-  std::vector<std::uint32_t> vertices;
-  std::vector<std::uint32_t> faces; // one of every closed surface that lacks cones
   double angle_defect_spread = 0;
   std::vector<char> rests_on_bounds; // by component: nothing is fixed, and some bounds are active with an angle sum below their target
 };
