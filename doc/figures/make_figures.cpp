@@ -9,6 +9,8 @@
 //   ./make_figures doc/Conformal_equivalence/fig horned_cap.off
 //   flatten_mesh horned_cap.off --svg doc/Conformal_equivalence/fig/flatten_mesh.svg
 
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/PNG.h"
+
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -22,7 +24,6 @@
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
-#include "flatten_mesh/PNG.h"
 #include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
@@ -158,13 +159,13 @@ public:
     data.resize(size);
 
     std::string header;
-    CE::internal::append_big_endian(header, std::uint32_t(width_));
-    CE::internal::append_big_endian(header, std::uint32_t(height_));
+    flattening::append_big_endian(header, std::uint32_t(width_));
+    flattening::append_big_endian(header, std::uint32_t(height_));
     header += std::string("\x08\x02\0\0\0", 5);
     std::string png = "\x89PNG\r\n\x1a\n";
-    CE::internal::append_png_chunk(png, "IHDR", header);
-    CE::internal::append_png_chunk(png, "IDAT", data);
-    CE::internal::append_png_chunk(png, "IEND", "");
+    flattening::append_png_chunk(png, "IHDR", header);
+    flattening::append_png_chunk(png, "IDAT", data);
+    flattening::append_png_chunk(png, "IEND", "");
     std::ofstream(file, std::ios::binary) << png;
   }
 

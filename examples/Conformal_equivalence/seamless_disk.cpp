@@ -4,11 +4,9 @@
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 
 #include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
-#include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
-#include "flatten_mesh/write_SVG.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -22,7 +20,6 @@ typedef CGAL::Surface_mesh<Point_3>                          Mesh;
 typedef boost::graph_traits<Mesh>::vertex_descriptor         vertex_descriptor;
 typedef boost::graph_traits<Mesh>::halfedge_descriptor       halfedge_descriptor;
 typedef boost::graph_traits<Mesh>::edge_descriptor           edge_descriptor;
-typedef boost::graph_traits<Mesh>::face_descriptor           face_descriptor;
 
 namespace CE = CGAL::Conformal_equivalence;
 namespace PMP = CGAL::Polygon_mesh_processing;
@@ -65,16 +62,7 @@ bool make_seamless(Mesh& sm, const std::string& name, const NamedParameters& np)
   for(const auto& cone : report.cones)
     std::cout << "  cone of " << cone.free_angle * 180 / CGAL_PI << " degrees, rounded to " << cone.angle * 180 / CGAL_PI << ", at ("
               << cone.lattice_point[0] << ", " << cone.lattice_point[1] << ")" << std::endl;
-
-  auto factor = sm.add_property_map<face_descriptor, double>("f:quasi_conformal_factor").first;
-  for(face_descriptor f : faces(sm))
-    factor[f] = CE::quasi_conformal_factor(sm, uv, f);
-  CE::IO::SVG_options options;
-  options.legend = "qc";
-  options.checkerboard = false;
-  options.tiles = report.tiling.symmetry;
-  return CE::verify_layout(sm, uv).number_of_flipped_triangles == 0
-      && CE::IO::write_OBJ(name + ".obj", sm, uv) && CE::IO::write_SVG(name + ".svg", sm, uv, factor, options);
+  return CE::verify_layout(sm, uv).number_of_flipped_triangles == 0 && CE::IO::write_OBJ(name + ".obj", sm, uv);
 }
 
 // Whether the layout has the length cross ratios of the mesh, across the seam, too.

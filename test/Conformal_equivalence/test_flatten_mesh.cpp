@@ -1798,7 +1798,6 @@ BOOST_AUTO_TEST_CASE(wrong_usage)
   check_refused({"a.off", "--tolerance", "0"}, 2, "--tolerance");
   check_refused({"a.off", "--tolerance", "nan"}, 2, "--tolerance");
   check_refused({"a.off", "--max-iterations", "-1"}, 2, "--max-iterations");
-  check_refused({"a.off", "--threads", "0"}, 2, "--threads");
   check_refused({"a.off", "--solver", "abacus"}, 2, "simplicial");
   for(const char* precision : { "quadruple", "", "1", "-200", "1e2", "4097" })
     check_refused({"a.off", "--precision", precision}, 2, "--precision takes");
@@ -2298,13 +2297,13 @@ BOOST_AUTO_TEST_CASE(draw_layouts)
   Two_triangles two;
   auto value = two.mesh.add_property_map<flattening::Face, double>("f:value", 0.).first;
   value[flattening::Face(1)] = 7.5;
-  const auto svg = [&](const CE::IO::SVG_options& options)
+  const auto svg = [&](const flattening::SVG_options& options)
   {
     std::ostringstream out;
-    BOOST_TEST(CE::IO::write_SVG(out, two.mesh, two.uv, value, options));
+    BOOST_TEST(flattening::write_SVG(out, two.mesh, two.uv, value, options));
     return out.str();
   };
-  CE::IO::SVG_options options;
+  flattening::SVG_options options;
   options.legend = "a < b & c";
   const std::string drawing = svg(options);
   BOOST_TEST(contains(drawing, "a &lt; b &amp; c"));
@@ -2347,14 +2346,14 @@ BOOST_AUTO_TEST_CASE(write_page)
   Two_triangles two;
   auto value = two.mesh.add_property_map<flattening::Face, double>("f:value", 1.).first;
   auto weights = two.mesh.add_property_map<flattening::Vertex, double>("v:w", 1.).first;
-  CE::IO::HTML_options options;
+  flattening::HTML_options options;
   options.title = "<script>";
   options.figures = {{"a", "<b>"}};
   for(bool with_weights : {false, true})
   {
     std::ostringstream out;
-    BOOST_TEST((with_weights ? CE::IO::write_HTML(out, two.mesh, two.uv, value, options, CGAL::parameters::projective_weight_map(weights))
-                             : CE::IO::write_HTML(out, two.mesh, two.uv, value, options)));
+    BOOST_TEST((with_weights ? flattening::write_HTML(out, two.mesh, two.uv, value, options, CGAL::parameters::projective_weight_map(weights))
+                             : flattening::write_HTML(out, two.mesh, two.uv, value, options)));
     const std::string page = out.str();
     BOOST_TEST(contains(page, "<title>&lt;script&gt;</title>"));
     BOOST_TEST(contains(page, "<td>a</td><td>&lt;b&gt;</td>"));
@@ -2372,7 +2371,7 @@ BOOST_AUTO_TEST_CASE(write_page)
 
 BOOST_AUTO_TEST_CASE(encodings)
 {
-  using namespace CE::internal;
+  using namespace flattening;
   const auto base64 = [](const std::string& s)
   {
     std::ostringstream out;

@@ -8,8 +8,8 @@
 #include "include/check_seams.h"
 #include "include/flattened_meshes.h"
 
-#include "flatten_mesh/write_HTML.h"
-#include "flatten_mesh/write_SVG.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/write_HTML.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/write_SVG.h"
 
 #include <CGAL/Polyhedron_3.h>
 
@@ -170,11 +170,11 @@ struct Drawn_seam
 };
 
 template <typename TriangleMesh, typename UVMap>
-std::string drawing(const TriangleMesh& tm, UVMap uv, const CE::IO::SVG_options& options = CE::IO::SVG_options())
+std::string drawing(const TriangleMesh& tm, UVMap uv, const flattening::SVG_options& options = flattening::SVG_options())
 {
   std::ostringstream out;
   const boost::static_property_map<double, Face> colors(1.);
-  BOOST_TEST(CE::IO::write_SVG(out, tm, uv, colors, options));
+  BOOST_TEST(flattening::write_SVG(out, tm, uv, colors, options));
   return out.str();
 }
 
@@ -265,9 +265,9 @@ std::size_t number_of_colors(const std::vector<Drawn_seam>& seams)
   return colors.size();
 }
 
-CE::IO::SVG_options without_cones()
+flattening::SVG_options without_cones()
 {
-  CE::IO::SVG_options options;
+  flattening::SVG_options options;
   options.cones = false;
   return options;
 }
@@ -324,7 +324,7 @@ BOOST_AUTO_TEST_CASE(an_octahedron_as_a_comb)
 BOOST_AUTO_TEST_CASE(seams_and_cones_can_be_left_out)
 {
   const Unfolded surface = cube();
-  CE::IO::SVG_options options;
+  flattening::SVG_options options;
   options.seams = false;
   std::string svg = drawing(surface.mesh, surface.uv, options);
   BOOST_TEST(drawn_seams(svg).empty());
@@ -335,7 +335,7 @@ BOOST_AUTO_TEST_CASE(seams_and_cones_can_be_left_out)
   // paths end only where not two seam edges meet
   std::map<Vertex, int> degree;
   for(Edge e : surface.mesh.edges())
-    if(CE::internal::is_outline(surface.mesh, surface.uv, surface.mesh.halfedge(e)))
+    if(flattening::is_outline(surface.mesh, surface.uv, surface.mesh.halfedge(e)))
       for(int i : {0, 1})
         ++degree[surface.mesh.vertex(e, i)];
   int ends = 0;
@@ -376,7 +376,7 @@ BOOST_AUTO_TEST_CASE(a_disk_has_neither)
   UV uv = mesh.add_property_map<Halfedge, Point_2>("h:uv").first;
   for(Halfedge h : mesh.halfedges())
     uv[h] = Point_2(mesh.point(mesh.target(h)).x(), mesh.point(mesh.target(h)).y());
-  CE::IO::SVG_options neither;
+  flattening::SVG_options neither;
   neither.seams = neither.cones = false;
   const std::string svg = drawing(mesh, uv);
   BOOST_TEST(svg == drawing(mesh, uv, neither));
@@ -434,7 +434,7 @@ BOOST_AUTO_TEST_CASE(neighbouring_paths_have_different_colors)
   Unfolded surface = torus(12, 12);
   std::map<Vertex, std::set<std::string> > colors;
   std::map<Dot, Vertex> vertex_at;
-  CE::IO::SVG_options options;
+  flattening::SVG_options options;
   options.size = 12 + 17 * 12;
   for(Face f : surface.mesh.faces())
     for(Halfedge h : CGAL::halfedges_around_face(surface.mesh.halfedge(f), surface.mesh))
@@ -443,7 +443,7 @@ BOOST_AUTO_TEST_CASE(neighbouring_paths_have_different_colors)
       const Index column = Index(f) % 17, row = Index(f) / 17;
       surface.uv[h] = Point_2(p.x() + 13 * column, p.y() + 13 * row);
     }
-  CE::internal::Finite_range x, y;
+  flattening::Finite_range x, y;
   for(Halfedge h : surface.mesh.halfedges())
   {
     x.insert(surface.uv[h].x());
@@ -474,12 +474,12 @@ BOOST_AUTO_TEST_CASE(neighbouring_paths_have_different_colors)
 // Points that fill a square evenly are about 1 / sqrt(n) apart; here that is some part of the 255 steps of a channel.
 BOOST_AUTO_TEST_CASE(colors_are_told_apart)
 {
-  const auto distance = [](const CE::internal::RGB& a, const CE::internal::RGB& b)
+  const auto distance = [](const flattening::RGB& a, const flattening::RGB& b)
     { return std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]); };
   for(const std::size_t n : {17, 40, 100})
     for(std::size_t i = 0; i < n; ++i)
       for(std::size_t j = 0; j < i; ++j)
-        BOOST_TEST(distance(CE::internal::distinct_color(i), CE::internal::distinct_color(j)) > 60 / std::sqrt(double(n)));
+        BOOST_TEST(distance(flattening::distinct_color(i), flattening::distinct_color(j)) > 60 / std::sqrt(double(n)));
 }
 
 // ------------------------------------------------------------------------------------------------
@@ -499,7 +499,7 @@ std::string drawing_of_square(double x, double y, double side, int tiles, double
 {
   const Unfolded surface = unfolded_quads({{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}}}, {{{0, 1, 2, 3}}},
     {{{Point_2(x, y), Point_2(x + side, y), Point_2(x + side, y + side), Point_2(x, y + side)}}});
-  CE::IO::SVG_options options;
+  flattening::SVG_options options;
   options.checkerboard = false;
   options.tiles = tiles;
   options.size = size;
@@ -685,7 +685,7 @@ BOOST_AUTO_TEST_CASE(another_model_of_a_mesh)
     ++column;
   }
   std::ostringstream out;
-  BOOST_TEST(CE::IO::write_SVG(out, tetrahedron, boost::make_assoc_property_map(corner),
+  BOOST_TEST(flattening::write_SVG(out, tetrahedron, boost::make_assoc_property_map(corner),
                                boost::static_property_map<double, Traits::face_descriptor>(1.)));
   BOOST_TEST(drawn_seams(out.str()).size() == 6u);
   check_sides(drawn_seams(out.str()), 1);
@@ -736,10 +736,10 @@ std::vector<T> array_in_page(const std::string& page, const std::string& name)
 BOOST_AUTO_TEST_CASE(the_page_of_a_cube)
 {
   const Unfolded surface = cube();
-  CE::IO::HTML_options options;
+  flattening::HTML_options options;
   options.svg.square = .5;
   std::ostringstream out;
-  BOOST_TEST(CE::IO::write_HTML(out, surface.mesh, surface.uv, boost::static_property_map<double, Face>(1.), options));
+  BOOST_TEST(flattening::write_HTML(out, surface.mesh, surface.uv, boost::static_property_map<double, Face>(1.), options));
   const std::string page = out.str();
   BOOST_TEST(drawn_seams(page).size() == 7u);
   BOOST_TEST(drawn_cones(page).size() == 8u);
@@ -937,7 +937,7 @@ Unfolded with_one_bit_changed(const Unfolded& surface, std::size_t n)
 {
   Unfolded result = shifted(surface, 0, 0);
   for(Halfedge h : result.mesh.halfedges())
-    if(! result.mesh.is_border(result.mesh.edge(h)) && CE::internal::is_outline(result.mesh, surface.uv, h) && n-- == 0)
+    if(! result.mesh.is_border(result.mesh.edge(h)) && flattening::is_outline(result.mesh, surface.uv, h) && n-- == 0)
     {
       const Point_2 p = surface.uv[h];
       for(Halfedge g : CGAL::halfedges_around_target(h, result.mesh)) // all corners at this place

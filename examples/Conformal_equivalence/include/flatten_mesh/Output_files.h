@@ -30,7 +30,7 @@ public:
 
   ~Output_files()
   {
-    for(const Entry& e : m_entries)
+    for(const Entry& e : entries_)
       if(! e.temporary.empty())
         remove(e.temporary);
   }
@@ -39,7 +39,7 @@ public:
   void announce(const std::string& path)
   {
     Entry entry{path, target(path), ""};
-    for(const Entry& e : m_entries)
+    for(const Entry& e : entries_)
       if(e.target == entry.target)
         throw Usage_error(text("two outputs have the same name ", path));
     std::error_code ignored;
@@ -48,7 +48,7 @@ public:
     if(! exists(entry.target) || is_regular(entry.target))
       entry.temporary = temporary_name(entry.target);
     try_to_open(entry);
-    m_entries.push_back(entry);
+    entries_.push_back(entry);
   }
 
   bool is_announced(const std::string& path) const { return find(path) != nullptr; }
@@ -69,9 +69,9 @@ public:
   // Puts all files in their places.
   void commit()
   {
-    for(std::size_t i = 0; i < m_entries.size(); ++i)
+    for(std::size_t i = 0; i < entries_.size(); ++i)
     {
-      Entry& entry = m_entries[i];
+      Entry& entry = entries_[i];
       if(entry.temporary.empty())
         continue;
       std::error_code error;
@@ -79,8 +79,8 @@ public:
       if(error)
       {
         for(std::size_t j = 0; j < i; ++j)
-          if(is_regular(m_entries[j].target))
-            remove(m_entries[j].target);
+          if(is_regular(entries_[j].target))
+            remove(entries_[j].target);
         fail("cannot write ", entry.path, ": ", error.message());
       }
       entry.temporary.clear();
@@ -144,13 +144,13 @@ private:
 
   const Entry* find(const std::string& path) const
   {
-    for(const Entry& e : m_entries)
+    for(const Entry& e : entries_)
       if(e.path == path)
         return &e;
     return nullptr;
   }
 
-  std::vector<Entry> m_entries;
+  std::vector<Entry> entries_;
 };
 
 } // namespace flattening

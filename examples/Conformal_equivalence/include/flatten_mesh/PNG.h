@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flattening {
@@ -94,7 +95,7 @@ inline void append_png_chunk(std::string& png, const char* type, const std::stri
   append_big_endian(png, crc32(png.data() + begin, png.data() + png.size()));
 }
 
-// returns the file of the picture in the format PNG (ISO/IEC 15948).
+// The file of the picture in the format PNG (ISO/IEC 15948).
 inline std::string png_file(const Palette_image& image)
 {
   std::string header, colors, opacities, rows;

@@ -47,34 +47,34 @@ class Scanner
 {
 public:
   Scanner(std::string_view text, std::string file, char comment)
-    : m_text(text), m_file(std::move(file)), m_comment(comment)
+    : text_(text), file_(std::move(file)), comment_(comment)
   {}
 
-  const std::string& file() const { return m_file; }
-  std::size_t line() const { return m_line; }
-  std::size_t position() const { return m_at; }
-  std::size_t size() const { return m_text.size(); }
+  const std::string& file() const { return file_; }
+  std::size_t line() const { return line_; }
+  std::size_t position() const { return at_; }
+  std::size_t size() const { return text_.size(); }
 
   bool at_end()
   {
     skip_space(true);
-    return m_at == m_text.size();
+    return at_ == text_.size();
   }
 
   bool at_end_of_line()
   {
     skip_space(false);
-    return m_at == m_text.size() || m_text[m_at] == '\n';
+    return at_ == text_.size() || text_[at_] == '\n';
   }
 
   // The next word, on whatever line; empty at the end of the text.
   std::string_view word()
   {
     skip_space(true);
-    const std::size_t begin = m_at;
-    while(m_at < m_text.size() && ! is_space(m_text[m_at]) && ! (m_comment && m_text[m_at] == m_comment))
-      ++m_at;
-    return m_text.substr(begin, m_at - begin);
+    const std::size_t begin = at_;
+    while(at_ < text_.size() && ! is_space(text_[at_]) && ! (comment_ && text_[at_] == comment_))
+      ++at_;
+    return text_.substr(begin, at_ - begin);
   }
 
   // The next word of this line; empty if there is none.
@@ -82,8 +82,8 @@ public:
 
   void skip_line()
   {
-    while(m_at < m_text.size() && m_text[m_at] != '\n')
-      ++m_at;
+    while(at_ < text_.size() && text_[at_] != '\n')
+      ++at_;
   }
 
   // The next number; in the `..._in_line` forms it must be in this line.
@@ -95,7 +95,7 @@ public:
   template <typename... Parts>
   [[noreturn]] void error(const Parts&... parts) const
   {
-    fail(m_file, ": line ", m_line, ": ", parts...);
+    fail(file_, ": line ", line_, ": ", parts...);
   }
 
   // Whole words only. Numbers beyond the range of double become infinite or zero.
@@ -127,7 +127,7 @@ private:
     if(! parse(w, x))
     {
       if(w.empty())
-        error("expected ", kind, ", found the end of the ", m_at == m_text.size() ? "file" : "line");
+        error("expected ", kind, ", found the end of the ", at_ == text_.size() ? "file" : "line");
       error("expected ", kind, ", found '", printable(w), "'");
     }
     return x;
@@ -147,29 +147,29 @@ public:
 private:
   void skip_space(bool across_lines)
   {
-    for(; m_at < m_text.size(); ++m_at)
+    for(; at_ < text_.size(); ++at_)
     {
-      const char c = m_text[m_at];
+      const char c = text_[at_];
       if(c == '\n')
       {
         if(! across_lines)
           return;
-        ++m_line;
+        ++line_;
       }
-      else if(m_comment && c == m_comment)
+      else if(comment_ && c == comment_)
       {
         skip_line();
-        --m_at; // look at the end of the line next
+        --at_; // look at the end of the line next
       }
       else if(! is_space(c))
         return;
     }
   }
 
-  std::string_view m_text;
-  std::string m_file;
-  char m_comment;
-  std::size_t m_at = 0, m_line = 1;
+  std::string_view text_;
+  std::string file_;
+  char comment_;
+  std::size_t at_ = 0, line_ = 1;
 };
 
 } // namespace flattening

@@ -44,27 +44,27 @@ public:
   };
 
   explicit Vertex_stars(const Triangle_soup& soup)
-    : m_first(soup.points.size() + 1, 0), m_corners(3 * soup.triangles.size())
+    : first_(soup.points.size() + 1, 0), corners_(3 * soup.triangles.size())
   {
     for(const auto& t : soup.triangles)
       for(std::uint32_t v : t)
-        ++m_first[v + 1];
-    for(std::size_t v = 0; v + 1 < m_first.size(); ++v)
-      m_first[v + 1] += m_first[v];
-    std::vector<std::size_t> free = m_first;
+        ++first_[v + 1];
+    for(std::size_t v = 0; v + 1 < first_.size(); ++v)
+      first_[v + 1] += first_[v];
+    std::vector<std::size_t> free = first_;
     for(std::size_t f = 0; f < soup.triangles.size(); ++f)
     {
       const auto& t = soup.triangles[f];
       for(std::size_t k = 0; k < 3; ++k)
-        m_corners[free[t[k]]++] = { t[(k + 1) % 3], t[(k + 2) % 3], static_cast<std::uint32_t>(f) };
+        corners_[free[t[k]]++] = { t[(k + 1) % 3], t[(k + 2) % 3], static_cast<std::uint32_t>(f) };
     }
-    for(std::size_t v = 0; v + 1 < m_first.size(); ++v)
-      std::sort(m_corners.begin() + m_first[v], m_corners.begin() + m_first[v + 1]);
+    for(std::size_t v = 0; v + 1 < first_.size(); ++v)
+      std::sort(corners_.begin() + first_[v], corners_.begin() + first_[v + 1]);
   }
 
-  std::size_t number_of_vertices() const { return m_first.size() - 1; }
-  const Corner* begin(std::size_t v) const { return m_corners.data() + m_first[v]; }
-  const Corner* end(std::size_t v) const { return m_corners.data() + m_first[v + 1]; }
+  std::size_t number_of_vertices() const { return first_.size() - 1; }
+  const Corner* begin(std::size_t v) const { return corners_.data() + first_[v]; }
+  const Corner* end(std::size_t v) const { return corners_.data() + first_[v + 1]; }
 
   // the corners at v whose edge towards `next` leads to w
   std::pair<const Corner*, const Corner*> towards(std::size_t v, std::uint32_t w) const
@@ -73,8 +73,8 @@ public:
   }
 
 private:
-  std::vector<std::size_t> m_first;
-  std::vector<Corner> m_corners;
+  std::vector<std::size_t> first_;
+  std::vector<Corner> corners_;
 };
 
 inline void check_triangles(const Triangle_soup& soup, const std::string& file)

@@ -18,10 +18,11 @@
 #include "solve.h"
 #include "sphere.h"
 #include "Stopwatch.h"
+#include "write_HTML.h"
+#include "write_material.h"
+#include "write_SVG.h"
 
-#include "flatten_mesh/write_HTML.h"
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
-#include "flatten_mesh/write_SVG.h"
 
 #include <algorithm>
 #include <cmath>
@@ -157,9 +158,9 @@ inline Face_map<double> face_colors(const Options& options, const Result& result
   return value;
 }
 
-inline CE::IO::HTML_options drawing_options(const Options& options, const Mesh& mesh, const Figures& figures)
+inline HTML_options drawing_options(const Options& options, const Mesh& mesh, const Figures& figures)
 {
-  CE::IO::HTML_options drawing;
+  HTML_options drawing;
   drawing.title = name_without_folder(options.input);
   drawing.figures = summary(options, mesh, figures);
   if(options.seamless)
@@ -178,19 +179,19 @@ inline CE::IO::HTML_options drawing_options(const Options& options, const Mesh& 
 // The checkerboard of the material: about 20 squares along the layout.
 inline double texture_repetitions(const Result& result)
 {
-  CE::internal::Finite_range x, y;
+  Finite_range x, y;
   for(Halfedge h : result.mesh.halfedges())
   {
     x.insert(result.uv[h].x());
     y.insert(result.uv[h].y());
   }
   const double longest = (std::max)(x.upper - x.lower, y.upper - y.lower);
-  return longest > 0 && std::isfinite(longest) ? 0.5 / CE::internal::round_number_below(longest / 14) : 1;
+  return longest > 0 && std::isfinite(longest) ? 0.5 / round_number_below(longest / 14) : 1;
 }
 
 // What fits across the seams of a layout of square tiles: a checkerboard of squares half as wide, one of them in the centre of each tile. That
 // of pages has a corner at the origin.
-inline CE::IO::HTML_options page_options(CE::IO::HTML_options drawing, const Figures& figures)
+inline HTML_options page_options(HTML_options drawing, const Figures& figures)
 {
   if(has_squares(figures.report.tiling.symmetry))
   {
@@ -244,9 +245,9 @@ inline void write_obj(const Options& options, const Result& result, const Materi
       write_tile_material(out, material.name, name_without_folder(beside.texture));
       return out.good();
     }
-    return CE::IO::write_MTL(out, material.name, name_without_folder(beside.texture), texture_repetitions(result));
+    return write_MTL(out, material.name, name_without_folder(beside.texture), texture_repetitions(result));
   });
-  files.write(beside.texture, [](std::ostream& out) { return CE::IO::write_checkerboard_PNG(out); });
+  files.write(beside.texture, [](std::ostream& out) { return write_checkerboard_PNG(out); });
 }
 
 // `mesh` is what was given; `result` is drawn, of that mesh or of its refinement.
@@ -259,14 +260,14 @@ inline void write_outputs(const Options& options, const Mesh& mesh, Result& resu
   if(! options.svg.empty() || ! options.html.empty())
   {
     const Face_map<double> colors = face_colors(options, result);
-    const CE::IO::HTML_options drawing = drawing_options(options, mesh, figures);
+    const HTML_options drawing = drawing_options(options, mesh, figures);
     const UV_map layout = options.target == Target::SPHERE ? hemispheres(result) : result.uv;
     if(! options.svg.empty())
-      files.write(options.svg, [&](std::ostream& out) { return CE::IO::write_SVG(out, result.mesh, layout, colors, drawing.svg); });
+      files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, drawing.svg); });
     if(! options.html.empty())
       files.write(options.html, [&](std::ostream& out)
       {
-        return CE::IO::write_HTML(out, result.mesh, page_layout(figures, result), colors, page_options(drawing, figures),
+        return write_HTML(out, result.mesh, page_layout(figures, result), colors, page_options(drawing, figures),
                                   CGAL::parameters::projective_weight_map(result.weight));
       });
   }

@@ -4,7 +4,7 @@
 #ifndef FLATTEN_MESH_LAYOUT_SEAMS_H
 #define FLATTEN_MESH_LAYOUT_SEAMS_H
 
-#include <CGAL/Conformal_equivalence/internal/IO/corner_values.h>
+#include "layout_outline.h"
 
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/properties.h>
@@ -52,10 +52,10 @@ public:
   // Paths end where the number of seam edges is not two, at the border, and at cones
   // if these are to be found.
   Layout_seams(const TriangleMesh& tm, const HalfedgeUVMap& uv, bool with_cones)
-    : m_tm(tm), m_uv(uv),
-      m_degree(get(CGAL::dynamic_vertex_property_t<std::size_t>(), tm)),
-      m_is_end(get(CGAL::dynamic_vertex_property_t<bool>(), tm)),
-      m_is_done(get(CGAL::dynamic_halfedge_property_t<bool>(), tm))
+    : tm_(tm), uv_(uv),
+      degree_(get(CGAL::dynamic_vertex_property_t<std::size_t>(), tm)),
+      is_end_(get(CGAL::dynamic_vertex_property_t<bool>(), tm)),
+      is_done_(get(CGAL::dynamic_halfedge_property_t<bool>(), tm))
   {
     count_seams();
     if(with_cones)
@@ -64,27 +64,27 @@ public:
     find_paths();
   }
 
-  const std::vector<Path>& paths() const { return m_paths; }
-  const std::vector<Cone>& cones() const { return m_cones; }
+  const std::vector<Path>& paths() const { return paths_; }
+  const std::vector<Cone>& cones() const { return cones_; }
 
 private:
   bool is_seam(halfedge_descriptor h) const
   {
-    return ! is_border(h, m_tm) && ! is_border(opposite(h, m_tm), m_tm) && is_outline(m_tm, m_uv, h);
+    return ! is_border(h, tm_) && ! is_border(opposite(h, tm_), tm_) && is_outline(tm_, uv_, h);
   }
 
   void count_seams()
   {
-    for(vertex_descriptor v : vertices(m_tm))
+    for(vertex_descriptor v : vertices(tm_))
     {
-      put(m_degree, v, 0);
-      put(m_is_end, v, false);
+      put(degree_, v, 0);
+      put(is_end_, v, false);
     }
-    for(halfedge_descriptor h : halfedges(m_tm))
+    for(halfedge_descriptor h : halfedges(tm_))
     {
-      put(m_is_done, h, ! is_seam(h));
-      if(! get(m_is_done, h))
-        put(m_degree, target(h, m_tm), get(m_degree, target(h, m_tm)) + 1);
+      put(is_done_, h, ! is_seam(h));
+      if(! get(is_done_, h))
+        put(degree_, target(h, tm_), get(degree_, target(h, tm_)) + 1);
     }
   }
 
@@ -109,9 +109,9 @@ private:
   Angle angle_sum(vertex_descriptor v, double rounding_of_coordinates) const
   {
     Angle sum = { 0, 0 };
-    for(halfedge_descriptor h : CGAL::halfedges_around_target(v, m_tm))
+    for(halfedge_descriptor h : CGAL::halfedges_around_target(v, tm_))
     {
-      const Vector p = corner_value(m_uv, h), q = corner_value(m_uv, next(h, m_tm)), r = corner_value(m_uv, prev(h, m_tm));
+      const Vector p = corner_value(uv_, h), q = corner_value(uv_, next(h, tm_)), r = corner_value(uv_, prev(h, tm_));
       const Angle corner = angle({{ q[0] - p[0], q[1] - p[1] }}, {{ r[0] - p[0], r[1] - p[1] }}, rounding_of_coordinates);
       sum.value += corner.value;
       sum.rounding += corner.rounding;
@@ -128,9 +128,9 @@ private:
       unit = (std::max)(unit, static_cast<double>(std::numeric_limits<FT>::epsilon()) / 2);
 
     double largest = 0;
-    for(halfedge_descriptor h : halfedges(m_tm))
-      if(! is_border(h, m_tm))
-        for(double x : corner_value(m_uv, h))
+    for(halfedge_descriptor h : halfedges(tm_))
+      if(! is_border(h, tm_))
+        for(double x : corner_value(uv_, h))
           if(std::isfinite(x))
             largest = (std::max)(largest, std::abs(x));
     return unit * largest;
@@ -141,14 +141,14 @@ private:
   {
     const double full_turn = 2 * CGAL_PI, rounding = rounding_of_coordinates();
     std::size_t index = 0;
-    for(vertex_descriptor v : vertices(m_tm))
+    for(vertex_descriptor v : vertices(tm_))
     {
       const std::size_t i = index++;
-      if(halfedge(v, m_tm) == Graph_traits::null_halfedge() || CGAL::is_border(v, m_tm))
+      if(halfedge(v, tm_) == Graph_traits::null_halfedge() || CGAL::is_border(v, tm_))
         continue;
       const Angle sum = angle_sum(v, rounding);
-      if(std::abs(sum.value - full_turn) > (std::max)(1e-6, sum.rounding) && (get(m_degree, v) > 0 || sum.value > full_turn))
-        m_cones.push_back({ v, i, sum.value });
+      if(std::abs(sum.value - full_turn) > (std::max)(1e-6, sum.rounding) && (get(degree_, v) > 0 || sum.value > full_turn))
+        cones_.push_back({ v, i, sum.value });
     }
   }
 
@@ -156,54 +156,54 @@ private:
 
   void find_ends()
   {
-    for(vertex_descriptor v : vertices(m_tm))
-      if(get(m_degree, v) > 0)
-        put(m_is_end, v, get(m_degree, v) != 2 || CGAL::is_border(v, m_tm));
-    for(const Cone& cone : m_cones)
-      put(m_is_end, cone.vertex, true);
+    for(vertex_descriptor v : vertices(tm_))
+      if(get(degree_, v) > 0)
+        put(is_end_, v, get(degree_, v) != 2 || CGAL::is_border(v, tm_));
+    for(const Cone& cone : cones_)
+      put(is_end_, cone.vertex, true);
   }
 
   // Those from ends in their order around each; then the closed ones.
   void find_paths()
   {
-    for(vertex_descriptor v : vertices(m_tm))
-      if(get(m_is_end, v) && get(m_degree, v) > 0)
-        for(halfedge_descriptor h : CGAL::halfedges_around_target(v, m_tm))
-          find_path(opposite(h, m_tm));
-    for(halfedge_descriptor h : halfedges(m_tm))
+    for(vertex_descriptor v : vertices(tm_))
+      if(get(is_end_, v) && get(degree_, v) > 0)
+        for(halfedge_descriptor h : CGAL::halfedges_around_target(v, tm_))
+          find_path(opposite(h, tm_));
+    for(halfedge_descriptor h : halfedges(tm_))
       find_path(h);
   }
 
   void find_path(halfedge_descriptor h)
   {
-    if(get(m_is_done, h))
+    if(get(is_done_, h))
       return;
     Path path;
     for(;;)
     {
-      put(m_is_done, h, true);
-      put(m_is_done, opposite(h, m_tm), true);
+      put(is_done_, h, true);
+      put(is_done_, opposite(h, tm_), true);
       path.push_back(h);
-      if(get(m_is_end, target(h, m_tm)))
+      if(get(is_end_, target(h, tm_)))
         break;
       const halfedge_descriptor first = h;
       do
-        h = opposite(next(h, m_tm), m_tm);
-      while(h != first && get(m_is_done, h));
+        h = opposite(next(h, tm_), tm_);
+      while(h != first && get(is_done_, h));
       if(h == first)
         break;
-      h = opposite(h, m_tm);
+      h = opposite(h, tm_);
     }
-    m_paths.push_back(std::move(path));
+    paths_.push_back(std::move(path));
   }
 
-  const TriangleMesh& m_tm;
-  const HalfedgeUVMap& m_uv;
-  Vertex_map<std::size_t> m_degree; // the number of seam edges
-  Vertex_map<bool> m_is_end;
-  Halfedge_map<bool> m_is_done;     // or no seam
-  std::vector<Cone> m_cones;
-  std::vector<Path> m_paths;
+  const TriangleMesh& tm_;
+  const HalfedgeUVMap& uv_;
+  Vertex_map<std::size_t> degree_; // the number of seam edges
+  Vertex_map<bool> is_end_;
+  Halfedge_map<bool> is_done_;     // or no seam
+  std::vector<Cone> cones_;
+  std::vector<Path> paths_;
 };
 
 } // namespace flattening

@@ -120,7 +120,6 @@ inline po::options_description visible_options()
     ("precision", po::value<std::string>()->default_value("double"), "double | BITS: computes with numbers of so many bits (up to 4096), "
        "as exactly as they allow, and writes all of their digits")
     ("solver", po::value<std::string>(), "the linear solver: cholmod or simplicial, as far as compiled in")
-    ("threads", po::value<long long>()->default_value(1), "number of threads")
     ("quiet", po::bool_switch(), "no summary and no progress")
     ("help,h", po::bool_switch(), "show this text")
     ("version", po::bool_switch(), "show the version");
@@ -389,8 +388,6 @@ inline void parse_numbers(const po::variables_map& values, Options& options)
   if(iterations < 0 || iterations > 1000000)
     throw Usage_error("--max-iterations takes a number from 0 to 1000000");
   options.maximum_number_of_iterations = static_cast<unsigned int>(iterations);
-  if(values["threads"].as<long long>() < 1)
-    throw Usage_error("--threads takes a number from 1");
 }
 
 inline CGAL::Conformal_equivalence::Retriangulation parse_retriangulation(const std::string& value)

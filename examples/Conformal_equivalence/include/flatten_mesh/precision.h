@@ -30,12 +30,12 @@ class Wide_point
 {
 public:
   Wide_point() = default;
-  Wide_point(const CE::Multiprecision_number& x, const CE::Multiprecision_number& y) : m_x(x), m_y(y) {}
-  const CE::Multiprecision_number& x() const { return m_x; }
-  const CE::Multiprecision_number& y() const { return m_y; }
+  Wide_point(const CE::Multiprecision_number& x, const CE::Multiprecision_number& y) : x_(x), y_(y) {}
+  const CE::Multiprecision_number& x() const { return x_; }
+  const CE::Multiprecision_number& y() const { return y_; }
 
 private:
-  CE::Multiprecision_number m_x, m_y;
+  CE::Multiprecision_number x_, y_;
 };
 
 typedef Mesh::Property_map<Halfedge, Wide_point>          Wide_UV_map;

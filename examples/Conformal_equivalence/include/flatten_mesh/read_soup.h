@@ -311,13 +311,13 @@ class Ply_numbers
 {
 public:
   Ply_numbers(Scanner& in, std::string_view content, bool is_text, bool is_swapped)
-    : m_in(in), m_content(content), m_at(in.position() + 1), m_is_text(is_text), m_is_swapped(is_swapped)
+    : in_(in), content_(content), at_(in.position() + 1), is_text_(is_text), is_swapped_(is_swapped)
   {}
 
   double next(Ply_type type)
   {
-    if(m_is_text)
-      return m_in.number();
+    if(is_text_)
+      return in_.number();
     switch(type)
     {
       case Ply_type::INT8:   return read<std::int8_t>();
@@ -334,24 +334,24 @@ public:
 
   std::string place() const
   {
-    return m_is_text ? flattening::place(m_in) : text(m_in.file(), ": byte ", m_at);
+    return is_text_ ? flattening::place(in_) : text(in_.file(), ": byte ", at_);
   }
 
 private:
   template <typename T>
   T read()
   {
-    if(m_at + sizeof(T) > m_content.size())
-      fail(m_in.file(), ": is cut off: it ends within its data");
-    const T value = from_bytes<T>(m_content.data() + m_at, m_is_swapped);
-    m_at += sizeof(T);
+    if(at_ + sizeof(T) > content_.size())
+      fail(in_.file(), ": is cut off: it ends within its data");
+    const T value = from_bytes<T>(content_.data() + at_, is_swapped_);
+    at_ += sizeof(T);
     return value;
   }
 
-  Scanner& m_in;
-  std::string_view m_content;
-  std::size_t m_at;
-  bool m_is_text, m_is_swapped;
+  Scanner& in_;
+  std::string_view content_;
+  std::size_t at_;
+  bool is_text_, is_swapped_;
 };
 
 inline Ply_type ply_type(Scanner& in)

@@ -51,7 +51,7 @@ struct Repair_figures
 // The layout of the mesh given and, if another mesh has to be made, of that.
 class Results
 {
-  Mesh m_made_mesh;
+  Mesh made_mesh_;
 
 public:
   Result given, made;
@@ -59,7 +59,7 @@ public:
   Repair_figures repair;
   double placing_seconds = 0; // of --cones auto
 
-  explicit Results(Mesh& mesh) : given(mesh), made(m_made_mesh) {}
+  explicit Results(Mesh& mesh) : given(mesh), made(made_mesh_) {}
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
 };

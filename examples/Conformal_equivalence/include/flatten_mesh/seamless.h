@@ -6,12 +6,12 @@
 #ifndef FLATTEN_MESH_SEAMLESS_H
 #define FLATTEN_MESH_SEAMLESS_H
 
+#include "layout_seams.h"
 #include "mesh.h"
 #include "results.h"
 
-#include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
-#include "flatten_mesh/layout_seams.h"
+#include <CGAL/Conformal_equivalence/Flattening_report.h>
 
 #include <array>
 #include <cmath>
@@ -74,7 +74,7 @@ inline std::vector<Seam_path> seam_paths(const Mesh& mesh, const UV_map& uv, con
   for(const auto& transition : report.transitions)
     transition_at.emplace(mesh.edge(transition.halfedge).idx(), &transition);
 
-  const CE::internal::Layout_seams<Mesh, UV_map> seams(mesh, uv, true);
+  const Layout_seams<Mesh, UV_map> seams(mesh, uv, true);
   std::vector<Seam_path> paths;
   for(const std::vector<Halfedge>& path : seams.paths())
   {

@@ -40,20 +40,20 @@ namespace flattening {
 class Progress
 {
 public:
-  Progress(std::ostream& err, bool is_shown) : m_err(err), m_is_shown(is_shown) {}
+  Progress(std::ostream& err, bool is_shown) : err_(err), is_shown_(is_shown) {}
   ~Progress() { show(""); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void show(const std::string& line)
   {
-    if(m_is_shown)
-      m_err << "\r\033[K" << line << std::flush;
+    if(is_shown_)
+      err_ << "\r\033[K" << line << std::flush;
   }
 
 private:
-  std::ostream& m_err;
-  bool m_is_shown;
+  std::ostream& err_;
+  bool is_shown_;
 };
 
 inline bool is_terminal(const std::ostream& err)

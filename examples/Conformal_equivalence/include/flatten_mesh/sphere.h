@@ -10,10 +10,9 @@
 #include "inscribe.h"
 #include "mesh.h"
 #include "results.h"
+#include "write_SVG.h"
 
-#include <CGAL/Conformal_equivalence/internal/IO/Text_buffer.h>
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
-#include "flatten_mesh/write_SVG.h"
 
 #include <cmath>
 #include <ostream>
@@ -26,7 +25,7 @@ template <typename Point>
 bool write_sphere_OBJ(std::ostream& out, const Mesh& mesh, const std::vector<Point>& points)
 {
   {
-    CE::internal::Text_buffer buffer(out);
+    Text_buffer buffer(out);
     for(Vertex v : mesh.vertices())
     {
       buffer << 'v';
@@ -89,7 +88,7 @@ inline UV_map hemispheres(Result& result)
 }
 
 // For a layout that has nothing to do with that of the surface.
-inline CE::IO::SVG_options hemisphere_options(CE::IO::SVG_options options)
+inline SVG_options hemisphere_options(SVG_options options)
 {
   options.checkerboard = options.seams = options.cones = false;
   options.circles = { {{0, 0, 1}}, {{distance_of_hemispheres, 0, 1}} };

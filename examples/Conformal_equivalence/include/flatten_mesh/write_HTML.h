@@ -9,14 +9,23 @@
 #ifndef FLATTEN_MESH_WRITE_HTML_H
 #define FLATTEN_MESH_WRITE_HTML_H
 
+#include "layout_outline.h"
+#include "page_text.h"
 #include "write_SVG.h"
+
+#include <CGAL/Conformal_equivalence/internal/IO/corner_values.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
-#include <cstring>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -47,7 +56,7 @@ HTML_geometry html_geometry(const TriangleMesh& tm, const HalfedgeUVMap& uv, con
 {
   HTML_geometry geometry;
   auto number = get(CGAL::dynamic_halfedge_property_t<std::size_t>(), tm);
-  const auto corners = number_corner_values(tm, uv, number);
+  const auto corners = CGAL::Conformal_equivalence::internal::number_corner_values(tm, uv, number);
 
   std::array<Finite_range, 3> box;
   const auto coordinates = [&](auto h) -> std::array<double, 3>
@@ -156,90 +165,49 @@ function start() {
 )html";
 }
 
-/*!
-\ingroup PkgConformalEquivalenceIO
-
-writes a page that shows the mesh in space with a checkerboard carried over from the layout, to be
-turned with the mouse, the drawing of `write_SVG()` beside it, and a table of figures. The page holds
-everything it needs. It takes about 60 bytes a vertex beside the drawing.
-
-\tparam TriangleMesh a model of `FaceListGraph`
-\tparam HalfedgeUVMap a model of `ReadablePropertyMap` with
-        `boost::graph_traits<TriangleMesh>::%halfedge_descriptor` as key type and a `%Point_2` as value type
-\tparam FaceScalarMap a model of `ReadablePropertyMap` with
-        `boost::graph_traits<TriangleMesh>::%face_descriptor` as key type and a number as value type
-\tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
-
-\param out the output stream
-\param tm a triangle mesh
-\param uv the layout: `uv[h]` is the place of the corner of `target(h, tm)` in `face(h, tm)`
-\param scalar a number for each face, which gives its colour in the drawing
-\param options title, figures, and how to draw
-\param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
-
-\cgalNamedParamsBegin
-  \cgalParamNBegin{vertex_point_map}
-    \cgalParamDescription{the points of the vertices}
-    \cgalParamType{a model of `ReadablePropertyMap` from vertices to `%Point_3`}
-    \cgalParamDefault{`boost::get(CGAL::vertex_point, tm)`}
-  \cgalParamNEnd
-  \cgalParamNBegin{projective_weight_map}
-    \cgalParamDescription{weights for projective interpolation in each triangle, the largest 1}
-    \cgalParamType{a model of `ReadablePropertyMap` from vertices to `double`}
-    \cgalParamDefault{none: linear interpolation}
-  \cgalParamNEnd
-\cgalNamedParamsEnd
-
-\return `true` iff the stream is good after writing
-
-Takes linear time. The machine's numbers must be little-endian, as those of the browser are.
-*/
+// Writes a page that shows the mesh in space with a checkerboard carried over from the layout, to be turned with the mouse, the
+// drawing of `write_SVG()` beside it, and a table of figures. The page holds everything it needs. It takes about 60 bytes a
+// vertex beside the drawing. `tm`, `uv` and `scalar` are those of `write_SVG()`.
+//
+// Named parameters: `vertex_point_map`, the points of the vertices; `projective_weight_map`, weights for projective interpolation
+// in each triangle, the largest 1 (none: linear interpolation).
+//
+// Returns `true` iff the stream is good after writing. Takes linear time. The machine's numbers must be little-endian, as those
+// of the browser are.
 template <typename TriangleMesh, typename HalfedgeUVMap, typename FaceScalarMap,
-          typename NamedParameters = parameters::Default_named_parameters>
+          typename NamedParameters = CGAL::parameters::Default_named_parameters>
 bool write_HTML(std::ostream& out, const TriangleMesh& tm, HalfedgeUVMap uv, FaceScalarMap scalar,
                 const HTML_options& options = HTML_options(),
-                const NamedParameters& np = parameters::default_values())
+                const NamedParameters& np = CGAL::parameters::default_values())
 {
-  using parameters::choose_parameter;
-  using parameters::get_parameter;
+  using CGAL::parameters::choose_parameter;
+  using CGAL::parameters::get_parameter;
 
   const auto vpm = choose_parameter(get_parameter(np, CGAL::internal_np::vertex_point),
-                                    get_const_property_map(CGAL::vertex_point, tm));
+                                    CGAL::get_const_property_map(CGAL::vertex_point, tm));
   const auto weights = get_parameter(np, CGAL::internal_np::conformal_weight);
   {
-    internal::Text_buffer buffer(out);
-    const internal::SVG_writer<TriangleMesh, HalfedgeUVMap, FaceScalarMap> drawing(tm, uv, scalar, options.svg);
-    const std::string title = internal::escaped_for_xml(options.title);
+    Text_buffer buffer(out);
+    const SVG_writer<TriangleMesh, HalfedgeUVMap, FaceScalarMap> drawing(tm, uv, scalar, options.svg);
+    const std::string title = escaped_for_xml(options.title);
     buffer << "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" << title << "</title>\n"
-           << internal::html_head() << "</head><body>\n<h1>" << title << "</h1>\n<main><canvas id=\"surface\"></canvas>\n";
+           << html_head() << "</head><body>\n<h1>" << title << "</h1>\n<main><canvas id=\"surface\"></canvas>\n";
     drawing.write(buffer);
     buffer << "</main><p id=\"note\"></p>\n<table>\n";
     for(const auto& figure : options.figures)
-      buffer << "<tr><td>" << internal::escaped_for_xml(figure.first) << "</td><td>"
-             << internal::escaped_for_xml(figure.second) << "</td></tr>\n";
+      buffer << "<tr><td>" << escaped_for_xml(figure.first) << "</td><td>"
+             << escaped_for_xml(figure.second) << "</td></tr>\n";
     buffer << "</table>\n<script>\n";
     {
-      const internal::HTML_geometry geometry = internal::html_geometry(tm, uv, vpm, weights, drawing.square());
-      internal::write_html_array(buffer, "points", geometry.points);
-      internal::write_html_array(buffer, "texture", geometry.texture);
-      internal::write_html_array(buffer, "triangles", geometry.triangles);
+      const HTML_geometry geometry = html_geometry(tm, uv, vpm, weights, drawing.square());
+      write_html_array(buffer, "points", geometry.points);
+      write_html_array(buffer, "texture", geometry.texture);
+      write_html_array(buffer, "triangles", geometry.triangles);
     }
-    buffer << internal::html_script() << "</script></body></html>\n";
+    buffer << html_script() << "</script></body></html>\n";
   }
   out.flush();
   return out.good();
-}
-
-// writes the file `file_name`; see the function above. Returns `false`, too, if
-// the file cannot be opened.
-template <typename TriangleMesh, typename HalfedgeUVMap, typename FaceScalarMap,
-          typename NamedParameters = parameters::Default_named_parameters>
-bool write_HTML(const std::string& file_name, const TriangleMesh& tm, HalfedgeUVMap uv, FaceScalarMap scalar,
-                const HTML_options& options = HTML_options(),
-                const NamedParameters& np = parameters::default_values())
-{
-  std::ofstream out(file_name, std::ios::binary);
-  return out.good() && write_HTML(out, tm, uv, scalar, options, np);
 }
 
 } // namespace flattening

@@ -10,10 +10,10 @@
 #define FLATTEN_MESH_WRITE_SVG_H
 
 #include "color_scale.h"
-#include <CGAL/Conformal_equivalence/internal/IO/corner_values.h>
+#include "layout_outline.h"
 #include "layout_seams.h"
+#include "page_text.h"
 #include "PNG.h"
-#include <CGAL/Conformal_equivalence/internal/IO/Text_buffer.h>
 
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
@@ -25,7 +25,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -42,9 +41,9 @@ struct SVG_options
   bool checkerboard = true;
   // The side of a square; 0 chooses a round number such that about 20 squares lie along the layout.
   double square = 0;
-  // n of a seamless layout (see `Tiling`): its tiles are drawn under the edges, for 2 and 4 unit squares with the integers in their centres, for 3 and 6 regular
-  // hexagons about the points of Z + Z e^{i pi / 3}; no tiles for any other number. Where it would take more than 1000 lines, squares of an odd number of tiles
-  // are drawn, and no hexagons.
+  // The symmetry n of a seamless layout (see `Tiling`). Its tiles are drawn under the edges: for n = 2 and 4 unit squares with the
+  // integers in their centres, for n = 3 and 6 regular hexagons about the points of Z + Z e^{i pi / 3}, and none for any other n.
+  // Where tiles would take more than 1000 lines, larger squares are drawn, each of an odd number of tiles along its side; and no hexagons.
   int tiles = 0;
   // The longer side of the drawing.
   double size = 1000;
@@ -138,67 +137,67 @@ class SVG_writer
 
 public:
   SVG_writer(const TriangleMesh& tm, const HalfedgeUVMap& uv, const FaceScalarMap& scalar,
-             const IO::SVG_options& options)
-    : m_tm(tm), m_uv(uv), m_scalar(scalar), m_options(options), m_frame(frame())
+             const SVG_options& options)
+    : tm_(tm), uv_(uv), scalar_(scalar), options_(options), frame_(frame())
   {
-    if(! (m_options.square > 0))
-      m_options.square = round_number_below(m_options.size / m_frame.scale / 14);
-    for(face_descriptor f : faces(m_tm))
-      m_values.insert(CGAL::to_double(get(m_scalar, f)));
+    if(! (options_.square > 0))
+      options_.square = round_number_below(options_.size / frame_.scale / 14);
+    for(face_descriptor f : faces(tm_))
+      values_.insert(CGAL::to_double(get(scalar_, f)));
   }
 
   // the side of a square of the checkerboard
-  double square() const { return m_options.square; }
+  double square() const { return options_.square; }
 
   void write(Text_buffer& out) const
   {
     const double margin = 20, legend_width = 200;
     out << "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\""
-        << -margin << ' ' << -margin << ' ' << m_frame.width + 2 * margin + legend_width << ' '
-        << (std::max)(m_frame.height, 360.) + 2 * margin
+        << -margin << ' ' << -margin << ' ' << frame_.width + 2 * margin + legend_width << ' '
+        << (std::max)(frame_.height, 360.) + 2 * margin
         << "\" font-family=\"sans-serif\" font-size=\"16\">\n";
-    if(number_of_faces() > m_options.maximum_number_of_drawn_faces)
+    if(number_of_faces() > options_.maximum_number_of_drawn_faces)
       write_image(out);
     else
       write_triangles(out);
     write_tiles(out);
-    if(number_of_faces() <= (std::min)(m_options.maximum_number_of_drawn_faces, m_options.maximum_number_of_faces_with_edges))
+    if(number_of_faces() <= (std::min)(options_.maximum_number_of_drawn_faces, options_.maximum_number_of_faces_with_edges))
       write_edges(out);
     write_circles(out);
     write_outline(out);
     write_seams_and_cones(out);
-    write_legend(out, m_frame.width + margin);
+    write_legend(out, frame_.width + margin);
     out << "</svg>\n";
   }
 
 private:
-  std::size_t number_of_faces() const { return faces(m_tm).size(); }
+  std::size_t number_of_faces() const { return faces(tm_).size(); }
 
   SVG_frame frame() const
   {
     Finite_range x, y;
-    for(face_descriptor f : faces(m_tm))
+    for(face_descriptor f : faces(tm_))
       for(const Point& p : corners(f))
         if(is_finite(p))
         {
           x.insert(p[0]);
           y.insert(p[1]);
         }
-    for(const std::array<double, 3>& c : m_options.circles)
+    for(const std::array<double, 3>& c : options_.circles)
       for(const double sign : {-1., 1.})
       {
         x.insert(c[0] + sign * c[2]);
         y.insert(c[1] + sign * c[2]);
       }
-    return SVG_frame(x, y, m_options.size);
+    return SVG_frame(x, y, options_.size);
   }
 
   static bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); }
 
   std::array<Point, 3> corners(face_descriptor f) const
   {
-    const halfedge_descriptor h = halfedge(f, m_tm), n = next(h, m_tm);
-    return {{ corner_value(m_uv, h), corner_value(m_uv, n), corner_value(m_uv, next(n, m_tm)) }};
+    const halfedge_descriptor h = halfedge(f, tm_), n = next(h, tm_);
+    return {{ corner_value(uv_, h), corner_value(uv_, n), corner_value(uv_, next(n, tm_)) }};
   }
 
   bool is_drawable(const std::array<Point, 3>& t) const
@@ -208,7 +207,7 @@ private:
 
   std::size_t color_class(face_descriptor f) const
   {
-    const double t = m_values.parameter(CGAL::to_double(get(m_scalar, f)));
+    const double t = values_.parameter(CGAL::to_double(get(scalar_, f)));
     return (std::min)(static_cast<std::size_t>(t * number_of_classes), number_of_classes - 1);
   }
 
@@ -221,7 +220,7 @@ private:
   void write_triangles(Text_buffer& out) const
   {
     std::array<std::vector<face_descriptor>, number_of_classes> classes;
-    for(face_descriptor f : faces(m_tm))
+    for(face_descriptor f : faces(tm_))
       classes[color_class(f)].push_back(f);
 
     out << "<g id=\"triangles\" transform=\"scale(.01)\" stroke-width=\"30\" stroke-linejoin=\"round\">\n";
@@ -242,7 +241,7 @@ private:
   {
     if(! is_drawable(t))
       return;
-    const Grid_point a = m_frame.in_hundredths(t[0]), b = m_frame.in_hundredths(t[1]), c = m_frame.in_hundredths(t[2]);
+    const Grid_point a = frame_.in_hundredths(t[0]), b = frame_.in_hundredths(t[1]), c = frame_.in_hundredths(t[2]);
     out << 'M' << a[0] << ' ' << a[1];
     write_step(out << 'l', a, b);
     write_step(out << ' ', b, c);
@@ -256,12 +255,12 @@ private:
 
   // --- the tiles of a seamless layout --------------------------------------------------------------------
 
-  bool has_square_tiles() const    { return m_options.tiles == 2 || m_options.tiles == 4; }
-  bool has_hexagonal_tiles() const { return m_options.tiles == 3 || m_options.tiles == 6; }
+  bool has_square_tiles() const    { return options_.tiles == 2 || options_.tiles == 4; }
+  bool has_hexagonal_tiles() const { return options_.tiles == 3 || options_.tiles == 6; }
 
   void write_tiles(Text_buffer& out) const
   {
-    const Point lower = m_frame.lower_left(), upper = m_frame.upper_right();
+    const Point lower = frame_.lower_left(), upper = frame_.upper_right();
     const double squares = side_of_squares(), hexagons = (upper[0] - lower[0] + 1) * (upper[1] - lower[1] + 1) * 2 / std::sqrt(3.);
     if(has_square_tiles() ? ! (squares > 0) : ! has_hexagonal_tiles() || ! (hexagons <= most_hexagons))
       return;
@@ -276,7 +275,7 @@ private:
   // An odd number of tiles, so that the squares have integers in their centres; zero where numbers fail.
   double side_of_squares() const
   {
-    const Point lower = m_frame.lower_left(), upper = m_frame.upper_right();
+    const Point lower = frame_.lower_left(), upper = frame_.upper_right();
     const double lines = upper[0] - lower[0] + (upper[1] - lower[1]) + 2;
     if(! (lines < 1e15) || ! ((std::max)({std::abs(lower[0]), std::abs(lower[1]), std::abs(upper[0]), std::abs(upper[1])}) < 1e15))
       return 0;
@@ -286,13 +285,13 @@ private:
   // The lines (k + 1/2) side.
   void write_squares(Text_buffer& out, double side) const
   {
-    const Point lower = m_frame.lower_left(), upper = m_frame.upper_right();
+    const Point lower = frame_.lower_left(), upper = frame_.upper_right();
     for(std::size_t axis = 0; axis < 2; ++axis)
       for(double k = std::ceil(lower[axis] / side - 0.5); (k + 0.5) * side <= upper[axis]; ++k)
       {
         Point p = lower, q = upper;
         p[axis] = q[axis] = (k + 0.5) * side;
-        const Grid_point a = m_frame.in_hundredths(p), b = m_frame.in_hundredths(q);
+        const Grid_point a = frame_.in_hundredths(p), b = frame_.in_hundredths(q);
         out << 'M' << a[0] << ' ' << a[1];
         write_step(out << 'l', a, b);
       }
@@ -301,18 +300,18 @@ private:
   // Of each hexagon four corners, from the left to the right; the other edges are those of its neighbours below.
   void write_hexagons(Text_buffer& out) const
   {
-    const Point lower = m_frame.lower_left(), upper = m_frame.upper_right();
+    const Point lower = frame_.lower_left(), upper = frame_.upper_right();
     const double row = std::sqrt(3.) / 2, h = row / 3;
     for(double b = std::ceil(lower[1] / row) - 1; b * row <= upper[1] + h; ++b)
       for(double a = std::ceil(lower[0] - b / 2 - 0.5); a + b / 2 <= upper[0] + 0.5; ++a)
       {
         const double x = a + b / 2, y = b * row;
         const std::array<Point, 4> corners = {{ {{x - 0.5, y + h}}, {{x, y + 2 * h}}, {{x + 0.5, y + h}}, {{x + 0.5, y - h}} }};
-        Grid_point previous = m_frame.in_hundredths(corners[0]);
+        Grid_point previous = frame_.in_hundredths(corners[0]);
         out << 'M' << previous[0] << ' ' << previous[1];
         for(std::size_t k = 1; k < 4; ++k)
         {
-          const Grid_point next = m_frame.in_hundredths(corners[k]);
+          const Grid_point next = frame_.in_hundredths(corners[k]);
           write_step(out << 'l', previous, next);
           previous = next;
         }
@@ -324,19 +323,19 @@ private:
   void write_edges(Text_buffer& out) const
   {
     out << "<path id=\"edges\" transform=\"scale(.01)\" fill=\"none\" stroke=\"#fff\" stroke-opacity=\".35\" stroke-width=\"40\" d=\"";
-    for(auto e : edges(m_tm))
+    for(auto e : edges(tm_))
     {
-      halfedge_descriptor h = halfedge(e, m_tm);
-      if(is_border(h, m_tm))
-        h = opposite(h, m_tm);
-      if(is_border(h, m_tm) || is_outline(m_tm, m_uv, h))
+      halfedge_descriptor h = halfedge(e, tm_);
+      if(is_border(h, tm_))
+        h = opposite(h, tm_);
+      if(is_border(h, tm_) || is_outline(tm_, uv_, h))
         continue;
-      const Point p = corner_value(m_uv, prev(h, m_tm)), q = corner_value(m_uv, h);
+      const Point p = corner_value(uv_, prev(h, tm_)), q = corner_value(uv_, h);
       if(! is_finite(p) || ! is_finite(q))
         continue;
-      if(std::hypot(q[0] - p[0], q[1] - p[1]) * m_frame.scale < shortest_edge_drawn)
+      if(std::hypot(q[0] - p[0], q[1] - p[1]) * frame_.scale < shortest_edge_drawn)
         continue;
-      const Grid_point a = m_frame.in_hundredths(p), b = m_frame.in_hundredths(q);
+      const Grid_point a = frame_.in_hundredths(p), b = frame_.in_hundredths(q);
       out << 'M' << a[0] << ' ' << a[1];
       write_step(out << 'l', a, b);
     }
@@ -353,8 +352,8 @@ private:
       palette.push_back({{rgb[0], rgb[1], rgb[2], 255}});
     }
     const double pixels = 1.5; // in a unit of the drawing
-    Palette_image image(number_of_pixels(pixels * m_frame.width), number_of_pixels(pixels * m_frame.height), palette);
-    for(face_descriptor f : faces(m_tm))
+    Palette_image image(number_of_pixels(pixels * frame_.width), number_of_pixels(pixels * frame_.height), palette);
+    for(face_descriptor f : faces(tm_))
       fill(image, pixels, corners(f), static_cast<unsigned char>(1 + color_class(f)));
 
     const std::string png = png_file(image);
@@ -378,7 +377,7 @@ private:
     std::array<Point, 3> q;
     for(std::size_t k = 0; k < 3; ++k)
     {
-      q[k] = m_frame(t[k]);
+      q[k] = frame_(t[k]);
       q[k] = {{ q[k][0] * pixels - 0.5, q[k][1] * pixels - 0.5 }};
     }
     const auto pixel = [&](double x, double y) -> unsigned char&
@@ -407,15 +406,15 @@ private:
   // The closed curves around the layout, filled with the checkerboard.
   void write_outline(Text_buffer& out) const
   {
-    if(m_options.checkerboard)
+    if(options_.checkerboard)
       write_checkerboard_pattern(out);
-    out << "<path id=\"outline\" fill=\"" << (m_options.checkerboard ? "url(#checkerboard)" : "none")
+    out << "<path id=\"outline\" fill=\"" << (options_.checkerboard ? "url(#checkerboard)" : "none")
         << "\" stroke=\"#000\" stroke-width=\"1.5\" stroke-linejoin=\"round\" d=\"";
-    auto is_done = get(CGAL::dynamic_halfedge_property_t<bool>(), m_tm);
-    for(halfedge_descriptor h : halfedges(m_tm))
+    auto is_done = get(CGAL::dynamic_halfedge_property_t<bool>(), tm_);
+    for(halfedge_descriptor h : halfedges(tm_))
       put(is_done, h, false);
-    for(halfedge_descriptor h : halfedges(m_tm))
-      if(! is_border(h, m_tm) && ! get(is_done, h) && is_outline(m_tm, m_uv, h))
+    for(halfedge_descriptor h : halfedges(tm_))
+      if(! is_border(h, tm_) && ! get(is_done, h) && is_outline(tm_, uv_, h))
         write_closed_curve(out, h, is_done);
     out << "\"/>\n";
   }
@@ -429,10 +428,10 @@ private:
     do
     {
       put(is_done, h, true);
-      const Point p = corner_value(m_uv, h);
+      const Point p = corner_value(uv_, h);
       if(is_finite(p))
       {
-        const Grid_point q = m_frame.in_hundredths(p);
+        const Grid_point q = frame_.in_hundredths(p);
         if(! is_begun)
           write_hundredths(out << 'M', q);
         else if(q != previous)
@@ -440,7 +439,7 @@ private:
         is_begun = true;
         previous = q;
       }
-      h = next_on_outline(m_tm, m_uv, h);
+      h = next_on_outline(tm_, uv_, h);
     }
     while(h != first);
     if(is_begun)
@@ -449,23 +448,23 @@ private:
 
   void write_circles(Text_buffer& out) const
   {
-    if(m_options.circles.empty())
+    if(options_.circles.empty())
       return;
     out << "<g id=\"circles\" fill=\"none\" stroke=\"#888\">\n";
-    for(const std::array<double, 3>& c : m_options.circles)
+    for(const std::array<double, 3>& c : options_.circles)
     {
-      const Point centre = m_frame({{ c[0], c[1] }});
-      out << "<circle cx=\"" << centre[0] << "\" cy=\"" << centre[1] << "\" r=\"" << c[2] * m_frame.scale << "\"/>\n";
+      const Point centre = frame_({{ c[0], c[1] }});
+      out << "<circle cx=\"" << centre[0] << "\" cy=\"" << centre[1] << "\" r=\"" << c[2] * frame_.scale << "\"/>\n";
     }
     out << "</g>\n";
   }
 
   void write_seams_and_cones(Text_buffer& out) const
   {
-    if(! m_options.seams && ! m_options.cones)
+    if(! options_.seams && ! options_.cones)
       return;
-    const Seams seams(m_tm, m_uv, m_options.cones);
-    if(m_options.seams && ! seams.paths().empty())
+    const Seams seams(tm_, uv_, options_.cones);
+    if(options_.seams && ! seams.paths().empty())
       write_seams(out, seams.paths());
     if(! seams.cones().empty())
       write_cones(out, seams.cones());
@@ -480,11 +479,11 @@ private:
     {
       out << "<path stroke=\"" << colors[i] << "\" d=\"";
       write_side(out, paths[i], [&](halfedge_descriptor h)
-        { return std::make_pair(corner_value(m_uv, prev(h, m_tm)), corner_value(m_uv, h)); });
+        { return std::make_pair(corner_value(uv_, prev(h, tm_)), corner_value(uv_, h)); });
       write_side(out, paths[i], [&](halfedge_descriptor h)
       {
-        const halfedge_descriptor o = opposite(h, m_tm);
-        return std::make_pair(corner_value(m_uv, o), corner_value(m_uv, prev(o, m_tm)));
+        const halfedge_descriptor o = opposite(h, tm_);
+        return std::make_pair(corner_value(uv_, o), corner_value(uv_, prev(o, tm_)));
       });
       out << "\"><title>seam " << i + 1 << ", edges: " << paths[i].size() << "</title></path>\n";
     }
@@ -504,7 +503,7 @@ private:
         is_begun = false;
         continue;
       }
-      const Grid_point a = m_frame.in_hundredths(ends.first), b = m_frame.in_hundredths(ends.second);
+      const Grid_point a = frame_.in_hundredths(ends.first), b = frame_.in_hundredths(ends.second);
       if(! is_begun || a != previous)
         out << 'M' << a[0] << ' ' << a[1];
       if(a != b)
@@ -530,9 +529,9 @@ private:
     for(const typename Seams::Cone& cone : cones)
     {
       std::vector<Grid_point> places;
-      for(halfedge_descriptor h : CGAL::halfedges_around_target(cone.vertex, m_tm))
-        if(is_finite(corner_value(m_uv, h)))
-          places.push_back(m_frame.in_hundredths(corner_value(m_uv, h)));
+      for(halfedge_descriptor h : CGAL::halfedges_around_target(cone.vertex, tm_))
+        if(is_finite(corner_value(uv_, h)))
+          places.push_back(frame_.in_hundredths(corner_value(uv_, h)));
       std::sort(places.begin(), places.end());
       places.erase(std::unique(places.begin(), places.end()), places.end());
       for(const Grid_point& p : places)
@@ -551,8 +550,8 @@ private:
   // Squares of the layout, one of them with its lower left corner at the origin.
   void write_checkerboard_pattern(Text_buffer& out) const
   {
-    const double side = m_options.square * m_frame.scale, period = 2 * side;
-    const Point origin = m_frame({{0, 0}});
+    const double side = options_.square * frame_.scale, period = 2 * side;
+    const Point origin = frame_({{0, 0}});
     out << "<defs><pattern id=\"checkerboard\" patternUnits=\"userSpaceOnUse\" x=\"" << std::fmod(origin[0], period)
         << "\" y=\"" << std::fmod(origin[1], period) << "\" width=\"" << period << "\" height=\"" << period
         << "\"><path d=\"M0 0h" << side << 'v' << period << 'h' << side << 'v' << -side << 'h' << -period
@@ -563,22 +562,22 @@ private:
   {
     const double height = 256, top = 50;
     out << "<g id=\"legend\"><text x=\"" << x << "\" y=\"" << top - 30 << "\">"
-        << escaped_for_xml(m_options.legend) << "</text>\n<defs><linearGradient id=\"colors\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
+        << escaped_for_xml(options_.legend) << "</text>\n<defs><linearGradient id=\"colors\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
     for(int i = 0; i <= 8; ++i)
       out << "<stop offset=\"" << i / 8. << "\" stop-color=\"" << hexadecimal(sequential_color(i / 8.)) << "\"/>";
     out << "</linearGradient></defs>\n<rect x=\"" << x << "\" y=\"" << top
         << "\" width=\"24\" height=\"" << height << "\" fill=\"url(#colors)\"/>\n";
-    if(! m_values.empty())
+    if(! values_.empty())
     {
-      out << "<text x=\"" << x + 30 << "\" y=\"" << top + 12 << "\">" << short_text(m_values.upper) << "</text>\n"
-          << "<text x=\"" << x + 30 << "\" y=\"" << top + height << "\">" << short_text(m_values.lower) << "</text>\n";
+      out << "<text x=\"" << x + 30 << "\" y=\"" << top + 12 << "\">" << short_text(values_.upper) << "</text>\n"
+          << "<text x=\"" << x + 30 << "\" y=\"" << top + height << "\">" << short_text(values_.lower) << "</text>\n";
     }
     const auto write_note = [&](double line, const char* text, double value)
     {
       out << "<text x=\"" << x << "\" y=\"" << top + height + 34 + 20 * line << "\" font-size=\"13\">" << text << short_text(value) << "</text>\n";
     };
-    if(m_options.checkerboard)
-      write_note(0, "side of a square: ", m_options.square);
+    if(options_.checkerboard)
+      write_note(0, "side of a square: ", options_.square);
     if(has_square_tiles() && side_of_squares() > 1)
       write_note(1, "tiles in a square, along a side: ", side_of_squares());
     out << "</g>\n";
@@ -591,63 +590,37 @@ private:
     return std::string(text, end.ptr);
   }
 
-  const TriangleMesh& m_tm;
-  const HalfedgeUVMap& m_uv;
-  const FaceScalarMap& m_scalar;
-  IO::SVG_options m_options;
-  SVG_frame m_frame;
-  Finite_range m_values;
+  const TriangleMesh& tm_;
+  const HalfedgeUVMap& uv_;
+  const FaceScalarMap& scalar_;
+  SVG_options options_;
+  SVG_frame frame_;
+  Finite_range values_;
 };
 
-/*!
-\ingroup PkgConformalEquivalenceIO
-
-draws the layout `uv` of `tm` as SVG: the triangles in 64 colours by the values of `scalar`,
-a checkerboard whose squares lie along the axes of the layout, or the tiles of a seamless one, the outline (borders and seams),
-the two sides of each seam path in the same colour, the cones as dots, and a legend with the
-colours, the least and the largest value. Seams and cones are found in the layout itself
-(see `SVG_options`); their titles, shown by browsers under the mouse, give the number of a seam and
-of its edges, the place of a cone in `vertices(tm)` and its angle in degrees. The colours of seam paths are all
-different (of some thousands of paths: nearly all), and easily told apart if there are no more than 16. Corners that are not finite are left out. A
-drawing of 200 000 triangles takes about 6 MB. The layout may have several pieces.
-
-\tparam TriangleMesh a model of `FaceListGraph`
-\tparam HalfedgeUVMap a model of `ReadablePropertyMap` with
-        `boost::graph_traits<TriangleMesh>::%halfedge_descriptor` as key type and a `%Point_2` as value type
-\tparam FaceScalarMap a model of `ReadablePropertyMap` with
-        `boost::graph_traits<TriangleMesh>::%face_descriptor` as key type and a number as value type
-
-\param out the output stream
-\param tm a triangle mesh
-\param uv the layout: `uv[h]` is the place of the corner of `target(h, tm)` in `face(h, tm)`
-\param scalar a number for each face; numbers that are not finite are drawn at the end of the scale
-       (infinities) or in its middle (NaN)
-\param options how to draw
-
-\return `true` iff the stream is good after writing
-
-Takes linear time.
-*/
+// Draws the layout `uv` of the triangle mesh `tm` as SVG: the triangles in 64 colours by the values of `scalar`, a checkerboard
+// whose squares lie along the axes of the layout, or the tiles of a seamless one, the outline (borders and seams), the two sides
+// of each seam path in the same colour, the cones as dots, and a legend with the colours, the least and the largest value.
+//
+// `uv[h]` is the place of the corner of `target(h, tm)` in `face(h, tm)`. Corners that are not finite are left out. The layout
+// may have several pieces. `scalar` gives a number for each face; infinities are drawn at the ends of the scale of colours, NaN
+// in its middle.
+//
+// Seams and cones are found in the layout itself (see `SVG_options`). Their titles, which browsers show under the mouse, give the
+// number of a seam and of its edges, the place of a cone in `vertices(tm)` and its angle in degrees. The colours of seam paths
+// are all different (of some thousands of paths: nearly all), and easily told apart if there are no more than 16.
+//
+// Returns `true` iff the stream is good after writing. Takes linear time. A drawing of 200 000 triangles takes about 6 MB.
 template <typename TriangleMesh, typename HalfedgeUVMap, typename FaceScalarMap>
 bool write_SVG(std::ostream& out, const TriangleMesh& tm, HalfedgeUVMap uv, FaceScalarMap scalar,
                const SVG_options& options = SVG_options())
 {
   {
-    internal::Text_buffer buffer(out);
-    internal::SVG_writer<TriangleMesh, HalfedgeUVMap, FaceScalarMap>(tm, uv, scalar, options).write(buffer);
+    Text_buffer buffer(out);
+    SVG_writer<TriangleMesh, HalfedgeUVMap, FaceScalarMap>(tm, uv, scalar, options).write(buffer);
   }
   out.flush();
   return out.good();
-}
-
-// writes the file `file_name`; see the function above. Returns `false`, too, if
-// the file cannot be opened.
-template <typename TriangleMesh, typename HalfedgeUVMap, typename FaceScalarMap>
-bool write_SVG(const std::string& file_name, const TriangleMesh& tm, HalfedgeUVMap uv, FaceScalarMap scalar,
-               const SVG_options& options = SVG_options())
-{
-  std::ofstream out(file_name, std::ios::binary);
-  return out.good() && write_SVG(out, tm, uv, scalar, options);
 }
 
 } // namespace flattening

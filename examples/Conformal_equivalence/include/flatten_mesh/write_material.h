@@ -6,9 +6,8 @@
 #ifndef FLATTEN_MESH_WRITE_MATERIAL_H
 #define FLATTEN_MESH_WRITE_MATERIAL_H
 
+#include "page_text.h"
 #include "PNG.h"
-
-#include <CGAL/Conformal_equivalence/internal/IO/Text_buffer.h>
 
 #include <cstdint>
 #include <ostream>
@@ -16,9 +15,7 @@
 
 namespace flattening {
 
-using CGAL::Conformal_equivalence::internal::Text_buffer;
-
-// writes a material library with one material called `name`, matt and white, with the
+// Writes a material library with one material called `name`, matt and white, with the
 // picture in the file `texture` on it, which is repeated `repetitions` times in a
 // unit of the layout. Returns `true` iff the stream is good after writing.
 inline bool write_MTL(std::ostream& out, const std::string& name, const std::string& texture,
@@ -33,7 +30,7 @@ inline bool write_MTL(std::ostream& out, const std::string& name, const std::str
   return out.good();
 }
 
-// writes a PNG picture of two by two squares of a checkerboard, made to be repeated.
+// Writes a PNG picture of two by two squares of a checkerboard, made to be repeated.
 // The stream must be binary. Returns `true` iff it is good after writing.
 inline bool write_checkerboard_PNG(std::ostream& out)
 {

@@ -78,27 +78,6 @@ number_corner_values(const TriangleMesh& tm, const HalfedgeUVMap& uv, HalfedgeNu
   return representatives;
 }
 
-// Edges at which the layout ends: borders, and edges whose two sides lie apart.
-// To be asked of a halfedge that has a face.
-template <typename TriangleMesh, typename HalfedgeUVMap, typename Halfedge>
-bool is_outline(const TriangleMesh& tm, const HalfedgeUVMap& uv, Halfedge h)
-{
-  const Halfedge o = opposite(h, tm);
-  return is_border(o, tm)
-      || corner_value(uv, h) != corner_value(uv, prev(o, tm))
-      || corner_value(uv, prev(h, tm)) != corner_value(uv, o);
-}
-
-// The halfedge of the outline that follows `h` along it, the layout on the left.
-template <typename TriangleMesh, typename HalfedgeUVMap, typename Halfedge>
-Halfedge next_on_outline(const TriangleMesh& tm, const HalfedgeUVMap& uv, Halfedge h)
-{
-  Halfedge n = next(h, tm);
-  while(! is_outline(tm, uv, n))
-    n = next(opposite(n, tm), tm);
-  return n;
-}
-
 } // namespace internal
 } // namespace Conformal_equivalence
 } // namespace CGAL
