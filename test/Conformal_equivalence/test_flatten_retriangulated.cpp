@@ -157,12 +157,12 @@ std::vector<Index> all_vertices(const Triangulation& t)
 
 namespace {
 
-struct Silent_observer
+struct Silent_observer : public CE::internal::Flip_observer<double>
 {
   std::size_t flips = 0;
-  void before_flip(const Triangulation&, Index) { ++flips; }
-  void after_flip(const Triangulation&, Index) {}
-  void begin_anew(const Triangulation&) {}
+  void before_flip(const Triangulation&, Index) override { ++flips; }
+  void after_flip(const Triangulation&, Index) override {}
+  void begin_anew(const Triangulation&) override {}
 };
 
 } // namespace
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(energy_across_flips)
   {
     Triangulation t = triangulation(soup);
     Silent_observer observer;
-    CE::internal::Ideal_delaunay_energy<double, Silent_observer> energy(t, observer);
+    CE::internal::Ideal_delaunay_energy<double> energy(t, observer);
     const Index n = t.number_of_vertices();
     const std::vector<double> direction = random_numbers(n, 3, 17);
     const auto at = [&](double x)
@@ -234,7 +234,7 @@ BOOST_AUTO_TEST_CASE(relaxing_a_vertex)
 {
   Triangulation t = triangulation(icosphere(2));
   Silent_observer observer;
-  CE::internal::Ideal_delaunay_energy<double, Silent_observer> energy(t, observer);
+  CE::internal::Ideal_delaunay_energy<double> energy(t, observer);
   const Index n = t.number_of_vertices();
   std::vector<double> u = random_numbers(n, .3, 23);
   for(Index v : { 0, 20, 77 })

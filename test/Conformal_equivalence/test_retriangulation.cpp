@@ -1255,13 +1255,14 @@ std::vector<double> wild_angles(const Triangulation& t, double angle)
   return result;
 }
 
-struct Linear_observer
+struct Linear_observer : public CEi::Flip_observer<double>
 {
-  CEi::Laplacian_solver<CE::Default_solver_traits>& linear;
+  CEi::Laplacian_solver& linear;
 
-  void before_flip(const Triangulation&, Index) {}
-  void after_flip(const Triangulation& t, Index e) { linear.change_edge(t, e); }
-  void begin_anew(const Triangulation& t)
+  explicit Linear_observer(CEi::Laplacian_solver& l) : linear(l) {}
+  void before_flip(const Triangulation&, Index) override {}
+  void after_flip(const Triangulation& t, Index e) override { linear.change_edge(t, e); }
+  void begin_anew(const Triangulation& t) override
   {
     for(Index e = 0; e < t.number_of_edges(); ++e)
       linear.change_edge(t, e);
@@ -1271,21 +1272,19 @@ struct Linear_observer
 // Writes how often one vertex was looked at by itself.
 CE::Status minimize(Triangulation t, const std::vector<double>& target, Index fixed, std::size_t& probes)
 {
-  typedef CEi::Ideal_delaunay_energy<double, Linear_observer> Energy;
-  CEi::Laplacian_solver<CE::Default_solver_traits> linear{CE::Default_solver_traits()};
+  CEi::Laplacian_solver linear(CEi::make_factorization<CE::Default_solver_traits>());
   std::vector<char> free(t.number_of_vertices(), 1);
   free[fixed] = 0;
   linear.set_edges(t);
   linear.set_free(free);
-  Linear_observer observer{linear};
-  Energy energy(t, observer);
+  Linear_observer observer(linear);
+  CEi::Flipping_energy<double> energy(t, observer);
   CEi::Newton_options options;
   options.number_of_iterations = 100;
   options.is_careful = true;
   CE::Statistics statistics;
-  CE::Default_visitor visitor;
-  CEi::Newton_method<Energy, CE::Default_solver_traits, CE::Default_visitor>
-    newton(energy, linear, target, options, statistics, visitor);
+  const CEi::Any_visitor visitor;
+  CEi::Newton_method newton(energy, linear, target, options, statistics, visitor);
   std::vector<double> u(t.number_of_vertices(), 0.);
   const CE::Status status = newton(u);
   probes = energy.number_of_probes();

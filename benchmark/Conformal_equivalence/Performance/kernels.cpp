@@ -27,7 +27,7 @@ namespace CE = CGAL::Conformal_equivalence;
 typedef CE::Intrinsic_triangulation<double>                       Triangulation;
 typedef CE::Conformal_metric<double>                              Metric;
 typedef CE::internal::Conformal_energy<double>                    Energy;
-typedef CE::internal::Laplacian_solver<CE::Default_solver_traits> Solver;
+typedef CE::internal::Laplacian_solver                            Solver;
 
 // A terrain with its natural border, at scale factors that are not trivial.
 struct Problem
@@ -137,7 +137,7 @@ void factorization_per_vertex(benchmark::State& state)
   Energy energy(problem.triangulation(), true);
   for(auto _ : state)
   {
-    Solver solver{CE::Default_solver_traits()};
+    Solver solver(CE::internal::make_factorization<CE::Default_solver_traits>());
     factorize(problem, energy, solver);
   }
   count(state, problem.u.size());
@@ -147,7 +147,7 @@ void back_solve_per_vertex(benchmark::State& state)
 {
   const Problem problem(state);
   Energy energy(problem.triangulation(), true);
-  Solver solver{CE::Default_solver_traits()};
+  Solver solver(CE::internal::make_factorization<CE::Default_solver_traits>());
   factorize(problem, energy, solver);
   std::vector<double> x;
   for(auto _ : state)

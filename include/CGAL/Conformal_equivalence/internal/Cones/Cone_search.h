@@ -243,7 +243,7 @@ class Cone_search
 public:
   // One component, with natural borders (u = 0) or closed. Keeps a reference.
   Cone_search(const Triangulation& t, const Surface_components::Component& component, const SolverTraits& traits, Cone_measure measure)
-    : t_(t), energy_(t, true), linear_(traits), kind_(measure),
+    : t_(t), energy_(t, true), linear_(make_factorization(traits)), kind_(measure),
       is_closed_(component.number_of_borders == 0), euler_characteristic_(double(component.euler_characteristic()))
   {
     std::vector<char> free(t.number_of_vertices(), 0);
@@ -686,7 +686,7 @@ private:
 
   const Triangulation& t_;
   Conformal_energy<double, NT> energy_;
-  Laplacian_solver<SolverTraits> linear_;
+  Laplacian_solver linear_;
   const Cone_measure kind_;
   const bool is_closed_;
   const double euler_characteristic_;

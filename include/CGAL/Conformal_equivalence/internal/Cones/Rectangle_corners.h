@@ -122,7 +122,7 @@ private:
   {
     Conformal_energy<double> energy(t_, true);
     energy.evaluate(Vertex_vector(t_.number_of_vertices(), 0.));
-    Laplacian_solver<Default_solver_traits> linear{Default_solver_traits()};
+    Laplacian_solver linear(make_factorization<Default_solver_traits>());
     linear.set_edges(t_);
     std::vector<char> free(t_.number_of_vertices(), 1);
     for(Index v = 0; v < t_.number_of_vertices(); ++v)

@@ -173,72 +173,88 @@ std::vector<Number> wide_weights(const Folded_double<NT>& t, const std::vector<W
 }
 
 // Tells the record of flips, and the links of the linear systems, of every flip on the double.
-template <typename NT, typename SolverTraits>
-struct Folded_flip_observer
+template <typename NT>
+class Folded_flip_observer final : public Flip_observer<NT>
 {
-  typedef std::uint32_t Index;
-  std::vector<Index>& flips;
-  Laplacian_solver<SolverTraits>& linear;
-  Folded_double<NT>& folded;
-  std::size_t number_of_lasting_flips = 0; // those before the energy was made
-
-  void before_flip(const Intrinsic_triangulation<NT>&, Index e) { flips.push_back(e); }
-
-  void after_flip(const Intrinsic_triangulation<NT>&, Index e)
-  {
-    folded.part(e);
-    for(Index f : {e, folded.mirror(e)})
-      linear.change_edge(folded, folded.link(f));
-  }
-
-  void begin_anew(const Intrinsic_triangulation<NT>&)
-  {
-    flips.resize(number_of_lasting_flips);
-    folded.join();
-    for(Index e : flips)
-      folded.part(e);
-    linear.change_edges(folded);
-  }
-};
-
-// Half of the energy of the double, as a function of u on the surface.
-template <typename NT, typename Observer>
-class Folded_energy : public Ideal_delaunay_energy<NT, Observer>
-{
-  typedef Ideal_delaunay_energy<NT, Observer> Base;
-
 public:
-  typedef typename Base::Index Index;
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<NT> Triangulation;
 
-  Folded_energy(Intrinsic_triangulation<NT>& t, const Folded_double<NT>& folded, Observer& observer)
-    : Base(t, observer), folded_(folded)
+  Folded_flip_observer(std::vector<Index>& flips, Laplacian_solver& linear, Folded_double<NT>& folded)
+    : flips_(flips), linear_(linear), folded_(folded), number_of_lasting_flips_(flips.size())
   {}
 
-  bool evaluate(const std::vector<double>& u)
+  void before_flip(const Triangulation&, Index e) override { flips_.push_back(e); }
+
+  void after_flip(const Triangulation&, Index e) override
   {
-    const bool is_finite = Base::evaluate(folded_.spread(u));
+    folded_.part(e);
+    for(Index f : {e, folded_.mirror(e)})
+      linear_.change_edge(folded_, folded_.link(f));
+  }
+
+  void begin_anew(const Triangulation&) override
+  {
+    flips_.resize(number_of_lasting_flips_);
+    folded_.join();
+    for(Index e : flips_)
+      folded_.part(e);
+    linear_.change_edges(folded_);
+  }
+
+  void keep_flips() override { number_of_lasting_flips_ = flips_.size(); }
+
+private:
+  std::vector<Index>& flips_;
+  Laplacian_solver& linear_;
+  Folded_double<NT>& folded_;
+  std::size_t number_of_lasting_flips_;
+};
+
+// Half of the energy of the double, as a function of u on the surface, as the solver takes it.
+template <typename NT>
+class Folded_energy final : public Energy_on_surface<NT, Folded_double<NT> >
+{
+  typedef Energy_on_surface<NT, Folded_double<NT> > Base;
+
+public:
+  typedef std::uint32_t Index;
+  typedef typename Base::Factors Factors;
+
+  // Keeps references to `t`, the double, which it flips, to its folding, and to the observer.
+  Folded_energy(Intrinsic_triangulation<NT>& t, const Folded_double<NT>& folded, Flip_observer<NT>& observer)
+    : Base(folded), energy_(t, observer)
+  {}
+
+  Ideal_delaunay_energy<NT>& ideal() { return energy_; }
+
+  bool evaluate(const Vertex_vector& u) override
+  {
+    const bool is_finite = energy_.evaluate(this->surface().spread(u));
     fold();
     return is_finite;
   }
 
-  const std::vector<double>& angle_sums() const { return angle_sum_; } // by vertex of the surface
-  const std::vector<double>& weights() const { return weight_; }       // by link
-  std::vector<double> sensitivities() const { return folded_.fold(Base::sensitivities()); }
+  const std::vector<double>& angle_sums() const override { return angle_sum_; } // by vertex of the surface
+  const std::vector<double>& weights() const override { return weight_; }       // by link
+  const std::vector<Index>& broken_faces() const override { return energy_.broken_faces(); }
+  std::vector<double> sensitivities() const override { return this->surface().fold(energy_.sensitivities()); }
+  bool has_flips() const override { return true; }
+  std::size_t number_of_probes() const override { return energy_.number_of_probes(); }
 
   // The vertex and its image are moved one after the other, which is the same as both at once unless they are neighbors.
-  double relax(Index v, double target, double x, double most)
+  double relax(Index v, double target, double x, double most) override
   {
-    if(folded_.is_on_axis(v))
-      return Base::relax(v, 2 * target, x, most);
-    const double result = Base::relax(v, target, x, most);
-    Base::relax(folded_.image(v), target, result, 0); // moves it there
+    if(this->surface().is_on_axis(v))
+      return energy_.relax(v, 2 * target, x, most);
+    const double result = energy_.relax(v, target, x, most);
+    energy_.relax(this->surface().image(v), target, result, 0); // moves it there
     return result;
   }
 
-  template <typename Scale>
-  bool make_delaunay(const std::vector<Scale>& s, const std::vector<double>& u)
+  bool make_delaunay(const Factors& s, const Vertex_vector& u) override
   {
-    const bool is_changed = Base::make_delaunay(folded_.spread(s), folded_.spread(u));
+    const bool is_changed = energy_.make_delaunay(this->surface().spread(s), this->surface().spread(u));
     fold();
     return is_changed;
   }
@@ -246,11 +262,11 @@ public:
 private:
   void fold()
   {
-    angle_sum_ = folded_.fold(Base::angle_sums());
-    weight_ = folded_.fold_weights(Base::weights());
+    angle_sum_ = this->surface().fold(energy_.angle_sums());
+    weight_ = this->surface().fold_weights(energy_.weights());
   }
 
-  const Folded_double<NT>& folded_;
+  Ideal_delaunay_energy<NT> energy_;
   std::vector<double> angle_sum_, weight_;
 };
 

@@ -12,6 +12,7 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Fixed_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 
@@ -28,9 +29,22 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The observer is told of every flip: before_flip(t, e), and after_flip(t, e) when the edge has other ends; and
-// by begin_anew(t) that all flips since the construction of the energy are taken back.
-template <typename Length, typename Observer>
+// Is told of every flip.
+template <typename NT>
+class Flip_observer
+{
+public:
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<NT> Triangulation;
+
+  virtual ~Flip_observer() = default;
+  virtual void before_flip(const Triangulation& t, Index e) = 0;
+  virtual void after_flip(const Triangulation& t, Index e) = 0; // the edge has other ends now
+  virtual void begin_anew(const Triangulation& t) = 0;          // all flips since the last call of keep_flips() are taken back
+  virtual void keep_flips() {}                                  // they are not taken back any more
+};
+
+template <typename Length>
 class Ideal_delaunay_energy : public Conformal_energy<double, Length>
 {
   typedef Conformal_energy<double, Length> Base;
@@ -38,10 +52,9 @@ class Ideal_delaunay_energy : public Conformal_energy<double, Length>
 public:
   typedef typename Base::Triangulation Triangulation;
   typedef typename Base::Index Index;
-  static constexpr bool has_flips = true;
 
   // Keeps references to `t`, which it flips and which nobody else may change, and to the observer.
-  Ideal_delaunay_energy(Triangulation& t, Observer& observer)
+  Ideal_delaunay_energy(Triangulation& t, Flip_observer<Length>& observer)
     : Base(t, true), t_(t), given_(t), flipper_(std::make_unique<Delaunay_flipper<Length> >(t)), observer_(observer)
   {}
 
@@ -214,10 +227,38 @@ private:
   Triangulation& t_;
   const Triangulation given_;
   std::unique_ptr<Delaunay_flipper<Length> > flipper_;
-  Observer& observer_;
+  Flip_observer<Length>& observer_;
   double seconds_ = 0;
   std::size_t number_of_probes_ = 0;
   bool is_worn_ = false; // some length is known less well than to rounding
+};
+
+// The same as the solver takes it.
+template <typename NT>
+class Flipping_energy final : public Energy_on_surface<NT, Intrinsic_triangulation<NT> >
+{
+  typedef Energy_on_surface<NT, Intrinsic_triangulation<NT> > Base;
+
+public:
+  typedef typename Base::Factors Factors;
+
+  // Keeps references to `t`, which it flips and which nobody else may change, and to the observer.
+  Flipping_energy(Intrinsic_triangulation<NT>& t, Flip_observer<NT>& observer) : Base(t), energy_(t, observer) {}
+
+  Ideal_delaunay_energy<NT>& ideal() { return energy_; }
+
+  bool evaluate(const Vertex_vector& u) override { return energy_.evaluate(u); }
+  const std::vector<double>& angle_sums() const override { return energy_.angle_sums(); }
+  const std::vector<double>& weights() const override { return energy_.weights(); }
+  const std::vector<std::uint32_t>& broken_faces() const override { return energy_.broken_faces(); }
+  std::vector<double> sensitivities() const override { return energy_.sensitivities(); }
+  bool has_flips() const override { return true; }
+  std::size_t number_of_probes() const override { return energy_.number_of_probes(); }
+  double relax(std::uint32_t v, double target, double x, double most) override { return energy_.relax(v, target, x, most); }
+  bool make_delaunay(const Factors& s, const Vertex_vector& u) override { return energy_.make_delaunay(s, u); }
+
+private:
+  Ideal_delaunay_energy<NT> energy_;
 };
 
 } // namespace internal

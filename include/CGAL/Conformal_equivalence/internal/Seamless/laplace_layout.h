@@ -280,7 +280,7 @@ private:
   const Triangulation& t_;
   const std::vector<Complex>& corner_;
   const Meta_polygon& polygon_;
-  Factorization<SolverTraits> factor_;
+  Factorization_by<SolverTraits> factor_;
   std::vector<Complex> rotation_of_motion_;
   std::vector<Index> number_;               // by vertex: of those that are free
   std::vector<Index> fixed_number_;         // by vertex

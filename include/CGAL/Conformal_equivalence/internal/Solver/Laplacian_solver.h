@@ -1,26 +1,18 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The linear algebra of the solver. The derivative of the angle sums is
-//
-//   d Theta_i = - 1/2 sum over edges ij of w_ij (d_i - d_j) =: - (A d)_i,
-//
-// twice the Hessian of E. The matrix A is restricted to the free vertices. It is
-// applied edge by edge and never assembled, except to be factorized; the factor of
-// one A serves as preconditioner for the conjugate gradient method with later ones.
-// Vectors run over all vertices and are zero at those that are not free. Some of the
-// free vertices can be held for a while: the matrix is then restricted to the others,
-// but its factor keeps its pattern, and a factor made before still serves.
-//
-// All of this is asked of a `Surface` only: numbers of vertices and edges, and the ends of every edge. It is a
-// triangulation, or one that is folded (folded_double.h), whose mirror images are the same vertices and edges: then A is that
-// of one half.
+// The linear algebra of the solver: systems with the matrix A of Edge_graph.h, which changes from one to the next. It
+// is applied edge by edge, and assembled only to be factorized; the factor of
+// one A serves as preconditioner for the conjugate gradient method with later ones. Where some of the free vertices are held, a
+// factor keeps its pattern, and one made before still serves.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 
-#include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
-#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
@@ -33,130 +25,6 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-typedef std::vector<double> Vertex_vector;
-
-inline double dot(const Vertex_vector& x, const Vertex_vector& y)
-{
-  double sum = 0;
-  for(std::size_t i = 0; i < x.size(); ++i)
-    sum += x[i] * y[i];
-  return sum;
-}
-
-inline double largest_entry(const Vertex_vector& x)
-{
-  double result = 0;
-  for(double entry : x)
-    result = (std::max)(result, std::abs(entry));
-  return result;
-}
-
-// The edges of the graph, with the vertices that are free, and those of them that are held.
-struct Edge_graph
-{
-  typedef std::uint32_t Index;
-  std::vector<std::pair<Index, Index> > ends; // by edge
-  std::vector<Index> free_index;              // by vertex; null_index where fixed
-  Index number_of_free = 0;
-  std::vector<char> held;                     // by vertex, or empty: none
-
-  bool is_free(Index v) const { return free_index[v] != Intrinsic_triangulation<>::null_index; }
-  bool is_held(Index v) const { return !held.empty() && held[v] != 0; }
-
-  template <typename Surface>
-  void set_edges(const Surface& t)
-  {
-    ends.resize(t.number_of_edges());
-    for(Index e = 0; e < t.number_of_edges(); ++e)
-      set_edge(t, e);
-  }
-
-  // `e` may be a new one, the next in order.
-  template <typename Surface>
-  void set_edge(const Surface& t, Index e)
-  {
-    if(e == ends.size())
-      ends.emplace_back();
-    ends[e] = std::make_pair(t.origin(t.edge_halfedge(e)), t.target(t.edge_halfedge(e)));
-  }
-
-  void set_free(const std::vector<char>& free)
-  {
-    number_of_free = 0;
-    free_index.assign(free.size(), Intrinsic_triangulation<>::null_index);
-    for(std::size_t v = 0; v < free.size(); ++v)
-      if(free[v])
-        free_index[v] = number_of_free++;
-  }
-
-  std::vector<char> free_vertices() const
-  {
-    std::vector<char> result(free_index.size());
-    for(std::size_t v = 0; v < result.size(); ++v)
-      result[v] = is_free(Index(v)) ? 1 : 0;
-    return result;
-  }
-
-  // A x for the edge weights w, on the free vertices that are not held; `x` may be nonzero at the others.
-  Vertex_vector product(const std::vector<double>& w, const Vertex_vector& x) const
-  {
-    Vertex_vector y(x.size(), 0.);
-    for(std::size_t e = 0; e < ends.size(); ++e)
-    {
-      const double flux = w[e] * (x[ends[e].first] - x[ends[e].second]) / 2;
-      y[ends[e].first] += flux;
-      y[ends[e].second] -= flux;
-    }
-    clear_fixed(y);
-    return y;
-  }
-
-  Vertex_vector diagonal(const std::vector<double>& w) const
-  {
-    Vertex_vector y(free_index.size(), 0.);
-    for(std::size_t e = 0; e < ends.size(); ++e)
-    {
-      if(ends[e].first == ends[e].second)
-        continue;
-      y[ends[e].first] += w[e] / 2;
-      y[ends[e].second] += w[e] / 2;
-    }
-    clear_fixed(y);
-    return y;
-  }
-
-  void clear_fixed(Vertex_vector& y) const
-  {
-    for(std::size_t v = 0; v < y.size(); ++v)
-      if(!is_free(Index(v)) || is_held(Index(v)))
-        y[v] = 0;
-  }
-};
-
-// What is added to the diagonal of A where triangles are broken: rows that have
-// lost (nearly) all of their weight get the mean weight. So do those of held vertices, which have none.
-inline Vertex_vector regularization(const Edge_graph& graph, const std::vector<double>& w, std::size_t& rows)
-{
-  Vertex_vector d = graph.diagonal(w), result(d.size(), 0.);
-  double sum = 0, largest = 0;
-  for(double x : d)
-  {
-    sum += (std::max)(x, 0.);
-    largest = (std::max)(largest, x);
-  }
-  const double mean = sum > 0 ? sum / (std::max)(graph.number_of_free, 1u) : 1;
-  rows = 0;
-  for(std::uint32_t v = 0; v < d.size(); ++v)
-  {
-    if(!graph.is_free(v) || d[v] > 1e-14 * largest)
-      continue;
-    result[v] = mean;
-    if(!graph.is_held(v))
-      ++rows;
-  }
-  return result;
-}
 
 // The lower half of A plus a diagonal, by columns, in the order of the free vertices.
 inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const std::vector<double>& w,
@@ -229,105 +97,12 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
   return a;
 }
 
-template <typename Traits, typename = void>
-struct Has_pattern_analysis : std::false_type {};
-
-template <typename Traits>
-struct Has_pattern_analysis<Traits, std::void_t<decltype(std::declval<Traits&>().analyze_pattern(
-    std::declval<const typename Traits::Matrix&>()))> > : std::true_type {};
-
-// One factor of A behind the solver traits. Traits without the split of analysis
-// and factorization (any model of CGAL's `SparseLinearAlgebraWithFactorTraits_d`)
-// get the whole matrix through `set_coef()`.
-template <typename SolverTraits>
-class Factorization
-{
-  typedef typename SolverTraits::Matrix Matrix;
-  typedef typename SolverTraits::Vector Vector;
-
-public:
-  explicit Factorization(const SolverTraits& traits) : traits_(traits) {}
-
-  const SolverTraits& traits() const { return traits_; }
-
-  void forget_pattern() { is_analyzed_ = false; }
-
-  // factorizes A + diag(shift)
-  bool factor(const Edge_graph& graph, const std::vector<double>& w, const Vertex_vector& shift)
-  {
-    return factor(assemble_lower(graph, w, shift));
-  }
-
-  // factorizes the symmetric matrix of which `lower` is the lower half
-  bool factor(Eigen::SparseMatrix<double> lower)
-  {
-    typename SolverTraits::NT denominator;
-    if constexpr(Has_pattern_analysis<SolverTraits>::value)
-    {
-      Matrix matrix{typename Matrix::EigenType()};
-      matrix.eigen_object().swap(lower);
-      if(!is_analyzed_ && !traits_.analyze_pattern(matrix))
-        return false;
-      is_analyzed_ = true;
-      return traits_.refactor(matrix, denominator);
-    }
-    else
-    {
-      matrix_ = std::make_unique<Matrix>(int(lower.rows()), int(lower.rows()));
-      for(int c = 0; c < lower.outerSize(); ++c)
-        for(Eigen::SparseMatrix<double>::InnerIterator entry(lower, c); entry; ++entry)
-        {
-          matrix_->set_coef(entry.row(), c, entry.value(), true);
-          if(entry.row() != c)
-            matrix_->set_coef(c, entry.row(), entry.value(), true);
-        }
-      return traits_.factor(*matrix_, denominator);
-    }
-  }
-
-  // x = A^-1 b on the free vertices, with the matrix last factorized
-  bool solve(const Edge_graph& graph, const Vertex_vector& b, Vertex_vector& x)
-  {
-    std::vector<double> free(graph.number_of_free);
-    for(std::size_t v = 0; v < b.size(); ++v)
-      if(graph.is_free(std::uint32_t(v)))
-        free[graph.free_index[v]] = b[v];
-    if(!solve(free))
-      return false;
-    x.assign(b.size(), 0.);
-    for(std::size_t v = 0; v < b.size(); ++v)
-      if(graph.is_free(std::uint32_t(v)))
-        x[v] = free[graph.free_index[v]];
-    return true;
-  }
-
-  // replaces b by A^-1 b
-  bool solve(std::vector<double>& b)
-  {
-    Vector right(int(b.size())), solution(int(b.size()));
-    for(std::size_t i = 0; i < b.size(); ++i)
-      right[int(i)] = b[i];
-    if(!traits_.linear_solver(right, solution))
-      return false;
-    for(std::size_t i = 0; i < b.size(); ++i)
-      b[i] = solution[int(i)];
-    return true;
-  }
-
-private:
-  SolverTraits traits_;
-  std::unique_ptr<Matrix> matrix_; // such traits may refer to it
-  bool is_analyzed_ = false;
-};
-
 // Systems A x = b for changing A: a kept factor and preconditioned conjugate gradients.
-template <typename SolverTraits>
 class Laplacian_solver
 {
 public:
-  explicit Laplacian_solver(const SolverTraits& traits) : factor_(traits) {}
+  explicit Laplacian_solver(std::unique_ptr<Factorization> factor) : factor_(std::move(factor)) {}
 
-  const SolverTraits& traits() const { return factor_.traits(); }
   const Edge_graph& graph() const { return graph_; }
   bool has_factor() const { return has_factor_; }
   std::size_t number_of_factorizations() const { return number_of_factorizations_; }
@@ -346,7 +121,7 @@ public:
   void change_edge(const Surface& t, std::uint32_t e)
   {
     graph_.set_edge(t, e);
-    factor_.forget_pattern();
+    factor_->forget_pattern();
   }
 
   // The same for all edges, whose number may be another one. \pre the vertices are the same
@@ -354,7 +129,7 @@ public:
   void change_edges(const Surface& t)
   {
     graph_.set_edges(t);
-    factor_.forget_pattern();
+    factor_->forget_pattern();
   }
 
   // The factor is kept if the free vertices are those of the last call. None is held.
@@ -364,7 +139,7 @@ public:
     if(has_factor_ && graph_.free_vertices() == free)
       return;
     graph_.set_free(free);
-    factor_.forget_pattern();
+    factor_->forget_pattern();
     has_factor_ = false;
   }
 
@@ -386,15 +161,15 @@ public:
     for(double relative = 1e-10; relative < 1; relative *= 100)
     {
       ++number_of_factorizations_;
-      if(factor_.factor(graph_, w, shift))
+      if(factor_->factor(assemble_lower(graph_, w, shift)))
         return has_factor_ = true;
       for(std::size_t v = 0; v < shift.size(); ++v)
         shift[v] += relative * (std::max)(diagonal[v], 0.);
     }
     ++number_of_factorizations_;
     const std::vector<double> tame_weights = tame(w);
-    return has_factor_ = factor_.factor(graph_, tame_weights, graph_.held.empty() ? Vertex_vector(shift.size(), 0.)
-                                                                                  : regularization(graph_, tame_weights, rows));
+    return has_factor_ = factor_->factor(assemble_lower(
+      graph_, tame_weights, graph_.held.empty() ? Vertex_vector(shift.size(), 0.) : regularization(graph_, tame_weights, rows)));
   }
 
   // x = A^-1 b with the matrix last factorized
@@ -403,7 +178,7 @@ public:
     x.assign(b.size(), 0.);
     if(graph_.number_of_free == 0)
       return true;
-    const bool is_solved = factor_.solve(graph_, b, x);
+    const bool is_solved = solve_by_factor(b, x);
     if(!graph_.held.empty())
       graph_.clear_fixed(x);
     return is_solved;
@@ -460,6 +235,22 @@ public:
   }
 
 private:
+  // x = A^-1 b on the free vertices
+  bool solve_by_factor(const Vertex_vector& b, Vertex_vector& x)
+  {
+    std::vector<double> free(graph_.number_of_free);
+    for(std::size_t v = 0; v < b.size(); ++v)
+      if(graph_.is_free(std::uint32_t(v)))
+        free[graph_.free_index[v]] = b[v];
+    if(!factor_->solve(free))
+      return false;
+    x.assign(b.size(), 0.);
+    for(std::size_t v = 0; v < b.size(); ++v)
+      if(graph_.is_free(std::uint32_t(v)))
+        x[v] = free[graph_.free_index[v]];
+    return true;
+  }
+
   // Positive weights of moderate range.
   static std::vector<double> tame(const std::vector<double>& w)
   {
@@ -475,7 +266,7 @@ private:
   }
 
   Edge_graph graph_;
-  Factorization<SolverTraits> factor_;
+  std::unique_ptr<Factorization> factor_;
   bool has_factor_ = false;
   std::size_t number_of_factorizations_ = 0, number_of_regularized_rows_ = 0;
 };

@@ -22,8 +22,10 @@
 
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Abstract_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Lower_bounds.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
@@ -46,60 +48,12 @@ struct Newton_options
   bool is_careful = false; // where edges are flipped on the way: steps are bounded, and outliers are relaxed
 };
 
-// The bounds u >= b. In what rests on its bounds, nothing else keeps u from going down to minus infinity,
-// where E decreases steadily; so at least one bound is active there.
-struct Lower_bounds
-{
-  typedef std::uint32_t Index;
-  Vertex_vector bound;               // by vertex, minus infinity where there is none; empty if there is none at all
-  std::vector<Index> resting;        // by vertex: the component if that rests on its bounds, else null_index
-  Index number_of_components = 0;
-
-  bool empty() const { return bound.empty(); }
-  bool has(Index v) const { return bound[v] > -std::numeric_limits<double>::infinity(); }
-  bool is_resting(Index v) const { return resting[v] != Intrinsic_triangulation<>::null_index; }
-
-  // Moves every component that rests on its bounds down or up to them. Returns whether anything was moved.
-  bool settle(Vertex_vector& u) const
-  {
-    const double infinity = std::numeric_limits<double>::infinity();
-    Vertex_vector rise(number_of_components, -infinity);
-    for(Index v = 0; v < u.size(); ++v)
-      if(is_resting(v))
-        rise[resting[v]] = (std::max)(rise[resting[v]], bound[v] - u[v]);
-    bool is_moved = false;
-    for(Index v = 0; v < u.size(); ++v)
-      if(is_resting(v) && rise[resting[v]] != 0 && std::isfinite(rise[resting[v]]))
-      {
-        const double moved = u[v] + rise[resting[v]];
-        const double rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(u[v]) + std::abs(moved));
-        u[v] = moved - bound[v] <= rounding ? bound[v] : moved;
-        is_moved = true;
-      }
-    return is_moved;
-  }
-
-  // Of every component that rests on its bounds, the bounded vertex with the largest value.
-  template <typename Value>
-  std::vector<Index> largest(Value value) const
-  {
-    const Index none = Intrinsic_triangulation<>::null_index;
-    std::vector<Index> result(number_of_components, none);
-    for(Index v = 0; v < bound.size(); ++v)
-      if(is_resting(v) && has(v) && (result[resting[v]] == none || value(v) > value(result[resting[v]])))
-        result[resting[v]] = v;
-    result.erase(std::remove(result.begin(), result.end(), none), result.end());
-    return result;
-  }
-};
-
-template <typename Energy, typename SolverTraits, typename Visitor>
 class Newton_method
 {
 public:
-  Newton_method(Energy& energy, Laplacian_solver<SolverTraits>& solver,
+  Newton_method(Abstract_energy& energy, Laplacian_solver& solver,
                 const Vertex_vector& target, const Newton_options& options,
-                Statistics& statistics, Visitor& visitor, const Lower_bounds& bounds = Lower_bounds())
+                Statistics& statistics, const Any_visitor& visitor, const Lower_bounds& bounds = Lower_bounds())
     : energy_(energy), solver_(solver), target_(target), bounds_(bounds), options_(options),
       statistics_(statistics), visitor_(visitor)
   {}
@@ -154,7 +108,7 @@ private:
   // among needles of which the minimum is not to be found, thousands of times.
   bool is_relaxing_in_vain() const
   {
-    if constexpr(Energy::has_flips)
+    if(energy_.has_flips())
       return double(energy_.number_of_probes()) > 1000 + 10. * double(options_.number_of_iterations) * double(target_.size());
     return false;
   }
@@ -437,7 +391,7 @@ private:
   bool relax_outliers(double t, Vertex_vector& trial, Vertex_vector& r)
   {
     bool is_moved = false;
-    if constexpr(Energy::has_flips)
+    if(energy_.has_flips())
     {
       const int rounds = 2;
       const double tolerable = 0.3, most = 2; // in radians; in u
@@ -587,13 +541,13 @@ private:
     }
   }
 
-  Energy& energy_;
-  Laplacian_solver<SolverTraits>& solver_;
+  Abstract_energy& energy_;
+  Laplacian_solver& solver_;
   const Vertex_vector& target_;
   const Lower_bounds bounds_;
   const Newton_options options_;
   Statistics& statistics_;
-  Visitor& visitor_;
+  const Any_visitor& visitor_;
   Vertex_vector residual_;
   std::vector<char> active_; // the vertices whose bounds are thought to be active
   double floor_ = 0;

@@ -56,7 +56,6 @@ class Conformal_energy
 public:
   typedef Intrinsic_triangulation<Length> Triangulation;
   typedef typename Triangulation::Index Index;
-  static constexpr bool has_flips = false;
 
   // Keeps a reference to `t` and its lengths converted to NT. If `normalize`, they are
   // multiplied by a power of two that brings them near 1.

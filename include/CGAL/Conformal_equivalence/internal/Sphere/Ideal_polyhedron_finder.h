@@ -285,11 +285,13 @@ private:
     using parameters::get_parameter;
     Conformal_metric_solver<NT, Solver_traits> solver(
       std::move(rest), choose_parameter<Solver_traits>(get_parameter(np_, internal_np::sparse_linear_solver)));
-    if(u.empty())
-      return std::move(solver).solve_with_flips(conditions, solver_parameters());
-    const auto by_index = [&u](Index v) { return u[v]; };
-    return std::move(solver).solve_with_flips(conditions, Conformal_equivalence::combine_named_parameters(
-      solver_parameters(), parameters::initial_log_scale_factor_map(boost::make_function_property_map<Index, double>(by_index))));
+    Solver_options options = read_solver_options(solver_parameters(), solver.triangulation().number_of_vertices());
+    options.retriangulation = Retriangulation::WHEN_NEEDED;
+    options.border_edges = Border_edges::KEPT;
+    options.has_come_from_flips = true;
+    if(!u.empty())
+      options.initial_log_scale_factors = u;
+    return std::move(solver).solve(conditions, options);
   }
 
   void take_over(const Metric& metric, Polyhedron& result) const

@@ -1,0 +1,76 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// A visitor of any type behind one type, so that what tells it of the progress need not be compiled for each type of visitor anew.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_ANY_VISITOR_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_ANY_VISITOR_H
+
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/options.h>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// Holds a copy of a visitor, or, of one that comes by `std::ref`, a reference to it. Copies of an `Any_visitor` share it.
+class Any_visitor
+{
+public:
+  // One that does nothing and never stops.
+  Any_visitor() = default;
+
+  template <typename Visitor>
+  static Any_visitor of(Visitor visitor)
+  {
+    Any_visitor result;
+    result.visitor_ = std::make_shared<Holder<Visitor> >(std::move(visitor));
+    return result;
+  }
+
+  void on_stage(Stage stage) const { if(visitor_) visitor_->on_stage(stage); }
+  void on_iteration(std::size_t iteration, double residual) const { if(visitor_) visitor_->on_iteration(iteration, residual); }
+  bool go_further() const { return !visitor_ || visitor_->go_further(); }
+
+private:
+  struct Interface
+  {
+    virtual ~Interface() = default;
+    virtual void on_stage(Stage stage) = 0;
+    virtual void on_iteration(std::size_t iteration, double residual) = 0;
+    virtual bool go_further() = 0;
+  };
+
+  template <typename Visitor>
+  struct Holder : public Interface
+  {
+    Visitor visitor;
+
+    explicit Holder(Visitor v) : visitor(std::move(v)) {}
+    void on_stage(Stage stage) override { unwrap(visitor).on_stage(stage); }
+    void on_iteration(std::size_t iteration, double residual) override { unwrap(visitor).on_iteration(iteration, residual); }
+    bool go_further() override { return unwrap(visitor).go_further(); }
+  };
+
+  std::shared_ptr<Interface> visitor_;
+};
+
+// The visitor among the named parameters; one that does nothing if there is none.
+template <typename NamedParameters>
+Any_visitor visitor_of(const NamedParameters& np)
+{
+  if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value)
+    return Any_visitor();
+  else
+    return Any_visitor::of(parameters::get_parameter(np, internal_np::visitor));
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_ANY_VISITOR_H

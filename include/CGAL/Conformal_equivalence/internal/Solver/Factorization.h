@@ -1,0 +1,115 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What the solver asks of a sparse Cholesky factorization, and how it is made of solver traits.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_FACTORIZATION_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_FACTORIZATION_H
+
+#include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// One factor of A. It hides the type of the solver traits, so that what works with it is compiled once for all of them.
+class Factorization
+{
+public:
+  virtual ~Factorization() = default;
+
+  // The next matrix has another pattern.
+  virtual void forget_pattern() = 0;
+
+  // factorizes the symmetric matrix of which `lower` is the lower half
+  virtual bool factor(Eigen::SparseMatrix<double> lower) = 0;
+
+  // replaces b by A^-1 b, with the matrix last factorized
+  virtual bool solve(std::vector<double>& b) = 0;
+};
+
+template <typename Traits, typename = void>
+struct Has_pattern_analysis : std::false_type {};
+
+template <typename Traits>
+struct Has_pattern_analysis<Traits, std::void_t<decltype(std::declval<Traits&>().analyze_pattern(
+    std::declval<const typename Traits::Matrix&>()))> > : std::true_type {};
+
+// The factor that solver traits make. Traits without the split of analysis
+// and factorization (any model of CGAL's `SparseLinearAlgebraWithFactorTraits_d`)
+// get the whole matrix through `set_coef()`.
+template <typename SolverTraits>
+class Factorization_by final : public Factorization
+{
+  typedef typename SolverTraits::Matrix Matrix;
+  typedef typename SolverTraits::Vector Vector;
+
+public:
+  explicit Factorization_by(const SolverTraits& traits) : traits_(traits) {}
+
+  void forget_pattern() override { is_analyzed_ = false; }
+
+  bool factor(Eigen::SparseMatrix<double> lower) override
+  {
+    typename SolverTraits::NT denominator;
+    if constexpr(Has_pattern_analysis<SolverTraits>::value)
+    {
+      Matrix matrix{typename Matrix::EigenType()};
+      matrix.eigen_object().swap(lower);
+      if(!is_analyzed_ && !traits_.analyze_pattern(matrix))
+        return false;
+      is_analyzed_ = true;
+      return traits_.refactor(matrix, denominator);
+    }
+    else
+    {
+      matrix_ = std::make_unique<Matrix>(int(lower.rows()), int(lower.rows()));
+      for(int c = 0; c < lower.outerSize(); ++c)
+        for(Eigen::SparseMatrix<double>::InnerIterator entry(lower, c); entry; ++entry)
+        {
+          matrix_->set_coef(entry.row(), c, entry.value(), true);
+          if(entry.row() != c)
+            matrix_->set_coef(c, entry.row(), entry.value(), true);
+        }
+      return traits_.factor(*matrix_, denominator);
+    }
+  }
+
+  bool solve(std::vector<double>& b) override
+  {
+    Vector right(int(b.size())), solution(int(b.size()));
+    for(std::size_t i = 0; i < b.size(); ++i)
+      right[int(i)] = b[i];
+    if(!traits_.linear_solver(right, solution))
+      return false;
+    for(std::size_t i = 0; i < b.size(); ++i)
+      b[i] = solution[int(i)];
+    return true;
+  }
+
+private:
+  SolverTraits traits_;
+  std::unique_ptr<Matrix> matrix_; // such traits may refer to it
+  bool is_analyzed_ = false;
+};
+
+
+template <typename SolverTraits>
+std::unique_ptr<Factorization> make_factorization(const SolverTraits& traits = SolverTraits())
+{
+  return std::make_unique<Factorization_by<SolverTraits> >(traits);
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_FACTORIZATION_H
