@@ -8,6 +8,8 @@
 #include "include/boost_test.h"
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Precise_number.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 
@@ -260,38 +262,82 @@ BOOST_AUTO_TEST_CASE(double_double_limits)
   }
 }
 
-BOOST_AUTO_TEST_CASE(exact_rational_is_exact)
+BOOST_AUTO_TEST_CASE(exact_number_is_exact)
 {
+  using CEi::Exact_number;
+  using CEi::exact_number;
   const auto agrees = [](const Wide& x)
   {
-    const CGAL::Exact_rational r = CEi::exact_rational(x);
-    // x is n 2^-e with an integer n: one multiplication back gives 1
-    CGAL::Exact_rational q = CEi::exact_rational(Wide(1 / x));
-    return CGAL::to_double(r) == static_cast<double>(x) && CGAL::sign(r * q) == CGAL::POSITIVE;
+    const Exact_number r = exact_number(x), q = exact_number(Wide(1 / x));
+    // rounded as `double` both; the product of both is 1 up to their rounding
+    return std::fabs(quotient(r, Exact_number(1)) - static_cast<double>(x)) <= 0x1p-52 * std::fabs(static_cast<double>(x))
+           && (r * q).sign() == CGAL::POSITIVE;
   };
   BOOST_CHECK(agrees(Wide(1) / 3));
   const Wide third = Wide(1) / 3, ulp = ldexp(Wide(1), -401); // third has 400 bits and lies in [1/4, 1/2)
-  CGAL::Exact_rational two_to_401(1);
+  Exact_number two_to_401(1);
   for(int i = 0; i < 401; ++i)
     two_to_401 *= 2;
-  BOOST_CHECK(CEi::exact_rational(ulp) * two_to_401 == CGAL::Exact_rational(1));
-  BOOST_CHECK(CEi::exact_rational(Wide(third + ulp)) == CEi::exact_rational(third) + CEi::exact_rational(ulp));
-  BOOST_CHECK(CEi::exact_rational(Wide(-third)) + CEi::exact_rational(third) == CGAL::Exact_rational(0));
-  BOOST_CHECK(CEi::exact_rational(Wide(0)) == CGAL::Exact_rational(0));
-  BOOST_CHECK(CEi::exact_rational(Double_double(1, 0x1p-200)) - CGAL::Exact_rational(0x1p-200) == CGAL::Exact_rational(1));
-  BOOST_CHECK(CEi::exact_rational(0x1.8p-5f) == CGAL::Exact_rational(0x1.8p-5));
+  BOOST_CHECK(exact_number(ulp) * two_to_401 == Exact_number(1));
+  BOOST_CHECK(exact_number(Wide(third + ulp)) == exact_number(third) + exact_number(ulp));
+  BOOST_CHECK(exact_number(Wide(-third)) + exact_number(third) == Exact_number(0));
+  BOOST_CHECK(exact_number(Wide(0)) == Exact_number(0));
+  BOOST_CHECK(exact_number(Double_double(1, 0x1p-200)) - Exact_number(0x1p-200) == Exact_number(1));
+  BOOST_CHECK(exact_number(0x1.8p-5f) == Exact_number(0x1.8p-5));
   // far outside the range of double, both ways
-  const CGAL::Exact_rational huge = CEi::exact_rational(Wide(ldexp(Wide(3), 5000))),
-                             tiny = CEi::exact_rational(Wide(ldexp(Wide(1), -5000)));
-  BOOST_CHECK(huge * tiny == CGAL::Exact_rational(3));
+  const Exact_number huge = exact_number(Wide(ldexp(Wide(3), 5000))),
+                     tiny = exact_number(Wide(ldexp(Wide(1), -5000)));
+  BOOST_CHECK(huge * tiny == Exact_number(3));
   for(int i = 0; i < 200; ++i)
   {
     const long double x = static_cast<long double>(random_with_exponent(1000)) * (1 + 1e-17L);
     const Rational r(x);
     const Double_double d(x); // a long double of 64 bits is a Double_double
     BOOST_CHECK(rational(d) == r);
-    BOOST_CHECK(CEi::exact_rational(x) == CEi::exact_rational(d));
+    BOOST_CHECK(exact_number(x) == exact_number(d));
   }
+}
+
+// Sums, differences, products, signs and quotients against rationals, zero and cancellation among them.
+BOOST_AUTO_TEST_CASE(exact_numbers_against_rationals)
+{
+  using CEi::Exact_number;
+  const auto same = [](const Exact_number& x, const Rational& r) { return quotient(x, Exact_number(1)) == 0 ? r == 0 : x.sign() == (r > 0 ? 1 : -1); };
+  for(int i = 0; i < 2000; ++i)
+  {
+    const double a = i % 7 == 0 ? 0. : random_with_exponent(500) * (i % 2 == 0 ? 1 : -1), b = i % 11 == 0 ? 0. : random_with_exponent(500),
+                 c = i % 3 == 0 ? a : random_with_exponent(500);
+    const Exact_number x(a), y(b), z(c);
+    const Rational p(a), q(b), r(c);
+    BOOST_CHECK(same(x + y, p + q) && same(x - y, p - q) && same(x * y, p * q) && same(x * y - z, p * q - r));
+    BOOST_CHECK(same((x + y) * z - x * z - y * z, Rational(0)));
+    BOOST_CHECK((x < y) == (p < q) && (x == z) == (p == r) && (x >= z) == (p >= r));
+    if(b > 0)
+    {
+      const Rational exact = p / q;
+      const double rounded = quotient(x, y);
+      BOOST_CHECK(abs(Rational(rounded) - exact) <= abs(exact) * Rational(0x1p-52));
+    }
+  }
+}
+
+// What 300 digits can hold is the same after a conversion there and back, and operations are rounded to 1024 bits.
+BOOST_AUTO_TEST_CASE(precise_numbers)
+{
+  using CEi::Precise_number;
+  const auto round_trip = [](const auto& x) { return CEi::From_precise<std::decay_t<decltype(x)> >()(CEi::To_precise()(x)); };
+  for(int i = 0; i < 200; ++i)
+  {
+    const double x = std::fabs(random_with_exponent(500));
+    BOOST_CHECK(round_trip(x) == x && round_trip(-x) == -x);
+    const Double_double d = sqrt(Double_double(x));
+    BOOST_CHECK(round_trip(d) == d);
+    const Wide w = sqrt(Wide(x)), huge = ldexp(w, 100000);
+    BOOST_CHECK(round_trip(w) == w && round_trip(huge) == huge);
+    const Precise_number p = sqrt(Precise_number(x)), error = p * p / x - 1;
+    BOOST_CHECK(error < 1e-307 && error > -1e-307);
+  }
+  BOOST_CHECK(round_trip(0.) == 0 && round_trip(Wide(0)) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(triangle_inequality_of_doubles)

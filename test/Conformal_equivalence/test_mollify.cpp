@@ -12,8 +12,6 @@
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
 #include <CGAL/Conformal_equivalence/mollify.h>
 
-#include <CGAL/Exact_rational.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,14 +30,14 @@ typedef CE::Mollified_metric<double>  Mollified;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 // a + b - c - slack, exactly, of the worst corner of all triangles of component `c`
-CGAL::Exact_rational least_slack(const Triangulation& t, const std::vector<std::uint32_t>& component, std::uint32_t c)
+CEi::Exact_number least_slack(const Triangulation& t, const std::vector<std::uint32_t>& component, std::uint32_t c)
 {
-  CGAL::Exact_rational least(1e300);
+  CEi::Exact_number least(1e300);
   for(Index h = 0; h < t.number_of_halfedges(); ++h)
     if(component[t.origin(h)] == c)
     {
-      const CGAL::Exact_rational d(CEi::exact_rational(t.halfedge_length(t.next(h))) + CEi::exact_rational(t.halfedge_length(t.previous(h)))
-                                   - CEi::exact_rational(t.halfedge_length(h)));
+      const CEi::Exact_number d = CEi::exact_number(t.halfedge_length(t.next(h))) + CEi::exact_number(t.halfedge_length(t.previous(h)))
+                                  - CEi::exact_number(t.halfedge_length(h));
       least = (std::min)(least, d);
     }
   return least;
@@ -62,11 +60,11 @@ Mollified checked(const Triangulation& t, double slack)
   }
   for(Index c = 0; c < sum.size(); ++c)
   {
-    const CGAL::Exact_rational least = least_slack(m.triangulation, pieces.component_of_vertex, c);
+    const CEi::Exact_number least = least_slack(m.triangulation, pieces.component_of_vertex, c);
     const double wanted = slack * sum[c], rounding = 1e-13 * sum[c] * slack;
-    BOOST_TEST((least >= CEi::exact_rational(wanted - rounding)));
+    BOOST_TEST((least >= CEi::exact_number(wanted - rounding)));
     if(m.added[c] > 0)
-      BOOST_TEST((least <= CEi::exact_rational(wanted + rounding + 16 * eps * longest[c])));
+      BOOST_TEST((least <= CEi::exact_number(wanted + rounding + 16 * eps * longest[c])));
     BOOST_TEST(m.added[c] >= 0);
   }
   if(slack > 16 * eps)

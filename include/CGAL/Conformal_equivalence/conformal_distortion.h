@@ -6,6 +6,7 @@
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -47,31 +49,6 @@ namespace Conformal_equivalence {
 
 namespace internal {
 
-// A number `mantissa * 2^exponent`, for areas beyond the range of double.
-struct Scaled_number
-{
-  double mantissa = 0;
-  int exponent = 0;
-};
-
-inline double scaled_to(const Scaled_number& x, int exponent)
-{
-  return std::scalbn(x.mantissa, x.exponent - exponent);
-}
-
-inline double logarithm(const Scaled_number& x)
-{
-  return std::log(x.mantissa) + x.exponent * 0.69314718055994530942;
-}
-
-// The exponent of a number that is finite and not 0.
-inline int binary_exponent(double x)
-{
-  int exponent;
-  std::frexp(x, &exponent);
-  return exponent;
-}
-
 // ad - bc with a small relative error also where the products cancel (Kahan).
 inline double difference_of_products(double a, double d, double b, double c)
 {
@@ -96,7 +73,7 @@ struct Triangle_frame
 
   bool is_degenerate() const { return !(length > 0 && y > 0); }
   std::size_t second() const { return 3 - origin - first; }
-  Scaled_number area() const { return { 0.5 * length * y, 2 * exponent }; }
+  Scaled_number<double> area() const { return { 0.5 * length * y, 2 * std::int64_t(exponent) }; }
 };
 
 // Vertices at the ends of the longest edge are chosen so that first is opposite the shortest edge.
@@ -239,13 +216,13 @@ inline double quasi_conformal_factor(const Triangle_frame& frame, const UV_corne
   return determinant > 0 ? (std::max)(1., 0.25 * s * s / determinant) : infinity;
 }
 
-inline Scaled_number layout_area(const UV_corners& w, const Triangle_frame& frame)
+inline Scaled_number<double> layout_area(const UV_corners& w, const Triangle_frame& frame)
 {
   if(!is_finite(w))
-    return Scaled_number();
+    return Scaled_number<double>();
   const Image_edges image = image_edges(w, frame);
-  return image.is_point ? Scaled_number()
-                        : Scaled_number{ 0.5 * std::fabs(image.cross_product()), 2 * image.exponent };
+  return image.is_point ? Scaled_number<double>()
+                        : Scaled_number<double>{ 0.5 * std::fabs(image.cross_product()), 2 * std::int64_t(image.exponent) };
 }
 
 } // namespace internal
@@ -464,19 +441,19 @@ inline void include_log_scale_factors(const Triangle_frame& frame, const UV_corn
 // What the second pass needs of a face, once the total areas are known.
 struct Face_distortion
 {
-  Scaled_number area, layout_area;
+  Scaled_number<double> area, layout_area;
   double factor;
 };
 
 // The sum of the areas as a multiple of 2^(exponent of the largest).
 template <typename Area>
-Scaled_number total_area(const std::vector<Face_distortion>& faces, Area area)
+Scaled_number<double> total_area(const std::vector<Face_distortion>& faces, Area area)
 {
-  Scaled_number total;
+  Scaled_number<double> total;
   bool is_first = true;
   for(const Face_distortion& f : faces)
   {
-    const Scaled_number a = area(f);
+    const Scaled_number<double> a = area(f);
     if(a.mantissa > 0 && (is_first || a.exponent > total.exponent))
     {
       total.exponent = a.exponent;
@@ -484,23 +461,23 @@ Scaled_number total_area(const std::vector<Face_distortion>& faces, Area area)
     }
   }
   for(const Face_distortion& f : faces)
-    total.mantissa += scaled_to(area(f), total.exponent);
+    total.mantissa += area(f).scaled_to(total.exponent);
   return total;
 }
 
 template <typename TriangleMesh>
 void summarize(const std::vector<Face_distortion>& faces, Conformal_distortion<TriangleMesh>& result)
 {
-  const Scaled_number total = total_area(faces, [](const Face_distortion& f) { return f.area; });
-  const Scaled_number layout_total = total_area(faces, [](const Face_distortion& f) { return f.layout_area; });
-  const double log_total_ratio = logarithm(layout_total) - logarithm(total);
+  const Scaled_number<double> total = total_area(faces, [](const Face_distortion& f) { return f.area; });
+  const Scaled_number<double> layout_total = total_area(faces, [](const Face_distortion& f) { return f.layout_area; });
+  const double log_total_ratio = layout_total.logarithm() - total.logarithm();
 
   double excess = 0, squares = 0;                  // the mean of factor - 1 loses no digits near 1
   Value_range ratios;
   for(const Face_distortion& f : faces)
   {
-    const double weight = scaled_to(f.area, total.exponent) / total.mantissa;
-    const double ratio = f.layout_area.mantissa > 0 ? logarithm(f.layout_area) - logarithm(f.area) - log_total_ratio
+    const double weight = f.area.scaled_to(total.exponent) / total.mantissa;
+    const double ratio = f.layout_area.mantissa > 0 ? f.layout_area.logarithm() - f.area.logarithm() - log_total_ratio
                                                     : -(std::numeric_limits<double>::infinity)();
     ratios.include(ratio);
     if(weight > 0)

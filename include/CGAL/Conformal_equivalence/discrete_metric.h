@@ -21,6 +21,7 @@
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -43,56 +44,6 @@ namespace CGAL {
 namespace Conformal_equivalence {
 
 namespace internal {
-
-// A positive number m 2^e with m near 1, for products and quotients of lengths whose
-// terms or value may leave the range of NT.
-template <typename NT>
-class Far_ranging_product
-{
-public:
-  Far_ranging_product& operator*=(const NT& x) { return append(x, 1); }
-  Far_ranging_product& operator/=(const NT& x) { return append(x, -1); }
-
-  NT value() const
-  {
-    using std::ldexp;
-    const std::int64_t most = 1000000000;
-    return ldexp(mantissa_, int((std::max)(-most, (std::min)(most, exponent_))));
-  }
-
-  NT logarithm() const
-  {
-    using std::log;
-    return log(mantissa_) + NT(exponent_) * log(NT(2));
-  }
-
-private:
-  Far_ranging_product& append(const NT& x, int sign)
-  {
-    using std::frexp;
-    int exponent = 0;
-    const NT m = frexp(x, &exponent);
-    if(sign > 0)
-      mantissa_ *= m;
-    else
-      mantissa_ /= m;
-    exponent_ += sign * exponent;
-    normalize();
-    return *this;
-  }
-
-  // brings the mantissa to [0.7, 1.4): powers of two alone
-  void normalize()
-  {
-    for(; mantissa_ < NT(0.7) && mantissa_ > NT(0); --exponent_)
-      mantissa_ *= 2;
-    for(; mantissa_ >= NT(1.4) && mantissa_ < NT(100); ++exponent_)
-      mantissa_ /= 2;
-  }
-
-  NT mantissa_ = NT(1);
-  std::int64_t exponent_ = 0;
-};
 
 // Positive and finite.
 template <typename NT>
@@ -230,7 +181,7 @@ namespace internal {
 //            m
 template <typename NT>
 void append_length_cross_ratio(const Intrinsic_triangulation<NT>& t, std::uint32_t e, bool divide,
-                               Far_ranging_product<NT>& product)
+                               Scaled_number<NT>& product)
 {
   const std::uint32_t h = t.edge_halfedge(e), g = t.twin(h);
   const NT &jk = t.halfedge_length(t.next(h)), &ki = t.halfedge_length(t.previous(h)),
@@ -266,7 +217,7 @@ template <typename NT>
 NT length_cross_ratio(const Intrinsic_triangulation<NT>& t, std::uint32_t e)
 {
   CGAL_precondition(!t.is_border_edge(e));
-  internal::Far_ranging_product<NT> result;
+  internal::Scaled_number<NT> result(NT(1), 0);
   internal::append_length_cross_ratio(t, e, false, result);
   return result.value();
 }
@@ -306,7 +257,7 @@ NT largest_cross_ratio_difference(const Intrinsic_triangulation<NT>& t0, const I
       return std::numeric_limits<NT>::quiet_NaN();
     if(t0.is_border_edge(e))
       continue;
-    internal::Far_ranging_product<NT> quotient;
+    internal::Scaled_number<NT> quotient(NT(1), 0);
     internal::append_length_cross_ratio(t1, e, false, quotient);
     internal::append_length_cross_ratio(t0, e, true, quotient);
     const NT difference = abs(NT(quotient.value() - 1));
@@ -364,7 +315,7 @@ Log_scale_factors<NT> log_scale_factors_between(const Intrinsic_triangulation<NT
   for(std::uint32_t h = 0; h < t0.number_of_halfedges(); ++h)
   {
     const std::uint32_t jk = t0.next(h), ki = t0.previous(h), i = t0.origin(h);
-    internal::Far_ranging_product<NT> factor; // e^{u_i}
+    internal::Scaled_number<NT> factor(NT(1), 0); // e^{u_i}
     ((factor *= t1.halfedge_length(h)) /= t0.halfedge_length(h));
     ((factor *= t1.halfedge_length(ki)) /= t0.halfedge_length(ki));
     ((factor *= t0.halfedge_length(jk)) /= t1.halfedge_length(jk));
@@ -378,7 +329,7 @@ Log_scale_factors<NT> log_scale_factors_between(const Intrinsic_triangulation<NT
   for(std::uint32_t e = 0; e < t0.number_of_edges(); ++e)
   {
     const std::uint32_t h = t0.edge_halfedge(e);
-    internal::Far_ranging_product<NT> ratio;
+    internal::Scaled_number<NT> ratio(NT(1), 0);
     ((ratio *= t1.length(e)) /= t0.length(e));
     const NT difference = abs(NT(ratio.logarithm() - (u[t0.origin(h)] + u[t0.target(h)]) / 2));
     if(!(difference <= result.residual))

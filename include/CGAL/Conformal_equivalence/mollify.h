@@ -15,13 +15,11 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
-#include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/enum.h>
-#include <CGAL/Exact_rational.h>
-#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -111,8 +109,8 @@ private:
     const NT bound = 8 * std::numeric_limits<NT>::epsilon() * ((std::max)((std::max)(a, b), c) + slack_);
     if(rounded > bound || rounded < -bound)
       return rounded;
-    const Exact_rational missing(exact_rational(slack_) + exact_rational(c) - exact_rational(a) - exact_rational(b));
-    if(CGAL::sign(missing) != POSITIVE)
+    const Exact_number missing = exact_number(slack_) + exact_number(c) - exact_number(a) - exact_number(b);
+    if(missing.sign() != POSITIVE)
       return NT(0);
     return rounded > NT(0) ? rounded : (std::numeric_limits<NT>::min)();
   }

@@ -16,13 +16,11 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_REPAIR_EDGE_CHANGES_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 
 #include <CGAL/enum.h>
-#include <CGAL/Exact_rational.h>
-#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,30 +31,29 @@ namespace Conformal_equivalence {
 namespace internal {
 
 // 16 times the squared area of the triangle with these squared sides; 0 where there is no such triangle.
-inline Exact_rational sixteen_squared_areas(const Exact_rational& aa, const Exact_rational& bb, const Exact_rational& cc)
+inline Exact_number sixteen_squared_areas(const Exact_number& aa, const Exact_number& bb, const Exact_number& cc)
 {
-  const Exact_rational d(aa + bb - cc), result(4 * aa * bb - d * d);
-  return CGAL::sign(result) == POSITIVE ? result : Exact_rational(0);
+  const Exact_number d = aa + bb - cc, result = 4 * aa * bb - d * d;
+  return result.sign() == POSITIVE ? result : Exact_number();
 }
 
 // The sign of p sqrt(x) + q sqrt(y), x, y >= 0.
-inline Sign sign_of_sum(const Exact_rational& p, const Exact_rational& x, const Exact_rational& q, const Exact_rational& y)
+inline Sign sign_of_sum(const Exact_number& p, const Exact_number& x, const Exact_number& q, const Exact_number& y)
 {
-  const Sign first = CGAL::sign(x) == ZERO ? ZERO : CGAL::sign(p), second = CGAL::sign(y) == ZERO ? ZERO : CGAL::sign(q);
+  const Sign first = x.sign() == ZERO ? ZERO : p.sign(), second = y.sign() == ZERO ? ZERO : q.sign();
   if(first == second || second == ZERO)
     return first;
   if(first == ZERO)
     return second;
-  const Exact_rational difference(p * p * x - q * q * y);
-  return first * CGAL::sign(difference);
+  return first * (p * p * x - q * q * y).sign();
 }
 
 // Is the sum of two angles less than pi, if 4 areas times their cotangents are p and q, with the areas of `x` and `y`? If both triangles have
 // one, iff the cotangents have a positive sum. An angle of a degenerate triangle is 0 (p > 0) or pi.
-inline bool is_less_than_pi(const Exact_rational& p, const Exact_rational& x, const Exact_rational& q, const Exact_rational& y)
+inline bool is_less_than_pi(const Exact_number& p, const Exact_number& x, const Exact_number& q, const Exact_number& y)
 {
-  if(CGAL::sign(x) == ZERO && CGAL::sign(y) == ZERO)
-    return CGAL::sign(p) == POSITIVE && CGAL::sign(q) == POSITIVE;
+  if(x.sign() == ZERO && y.sign() == ZERO)
+    return p.sign() == POSITIVE && q.sign() == POSITIVE;
   return sign_of_sum(p, y, q, x) == POSITIVE;
 }
 
@@ -69,12 +66,12 @@ bool is_strictly_convex(const Intrinsic_triangulation<NT>& t, std::uint32_t e)
   const std::uint32_t h = t.edge_halfedge(e), g = t.twin(h);
   const auto square = [&](std::uint32_t side)
   {
-    const Exact_rational l = exact_rational(t.halfedge_length(side));
-    return Exact_rational(l * l);
+    const Exact_number l = exact_number(t.halfedge_length(side));
+    return l * l;
   };
-  const Exact_rational cc = square(h), jk = square(t.next(h)), ki = square(t.previous(h)),
+  const Exact_number cc = square(h), jk = square(t.next(h)), ki = square(t.previous(h)),
                        il = square(t.next(g)), lj = square(t.previous(g));
-  const Exact_rational above = sixteen_squared_areas(cc, jk, ki), below = sixteen_squared_areas(cc, il, lj);
+  const Exact_number above = sixteen_squared_areas(cc, jk, ki), below = sixteen_squared_areas(cc, il, lj);
   return is_less_than_pi(cc + ki - jk, above, cc + il - lj, below)
       && is_less_than_pi(cc + jk - ki, above, cc + lj - il, below);
 }

@@ -456,8 +456,8 @@ private:
       const Triangle_frame given = given_frame(f);
       if(!given.is_degenerate())
       {
-        before.push_back({given.area(), Scaled_number(), quasi_conformal_factor(given, uv([&](Index h) { return corner_[h]; }, f))});
-        after.push_back({given.area(), Scaled_number(), quasi_conformal_factor(given, image)});
+        before.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, uv([&](Index h) { return corner_[h]; }, f))});
+        after.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, image)});
       }
       area += std::imag(std::conj(in_plane(3 * f + 1) - in_plane(3 * f)) * (in_plane(3 * f + 2) - in_plane(3 * f))) / 2;
     }
@@ -475,7 +475,7 @@ private:
     {
       const Triangle_frame given = given_frame(f);
       if(!given.is_degenerate() && is_flat_positive(f))
-        result.push_back({given.area(), Scaled_number(), quasi_conformal_factor(plane_frame(f), uv(image, f))});
+        result.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(plane_frame(f), uv(image, f))});
     }
     return mean_factor(result);
   }
@@ -516,11 +516,11 @@ private:
     Mean_factor result;
     if(faces.empty())
       return result;
-    const Scaled_number total = total_area(faces, [](const Face_distortion& f) { return f.area; });
+    const Scaled_number<double> total = total_area(faces, [](const Face_distortion& f) { return f.area; });
     double excess = 0;
     for(const Face_distortion& f : faces)
     {
-      const double weight = scaled_to(f.area, total.exponent) / total.mantissa;
+      const double weight = f.area.scaled_to(total.exponent) / total.mantissa;
       if(!(weight > 0) || std::isnan(f.factor)) // a needle without an area in the plane
         continue;
       excess += weight * (f.factor - 1);

@@ -4,8 +4,7 @@
 // Angle sums to more digits than `double`, for the last residual. Even the
 // constant 2 pi is off by 2.4e-16 in double, a turn of 2.4e-10 for a million
 // vertices. The angle sum at a vertex is twice the argument of the product of the
-// numbers (s - a) + i r of its corners (`half_angle()`), so no transcendental
-// function is needed:
+// numbers (s - a) + i r of its corners, so no transcendental function is needed:
 //
 //   Theta~ - Theta^ = 2 arg( e^{-i Theta^ / 2}  prod over corners ((s - a) + i r) ).
 
@@ -15,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <algorithm>
@@ -97,37 +97,6 @@ public:
     const double sum = 2 * (half_turns_ * Number_constants<double>::pi()
                             + std::atan2(static_cast<double>(z_.im), static_cast<double>(z_.re)));
     return double_turn * std::round((sum - static_cast<double>(target.template radians<Wide>()) - remainder) / double_turn);
-  }
-};
-
-// The vector 2^exponent * entries. (Residuals may be far below the range of `double`.)
-struct Scaled_vector
-{
-  std::vector<double> entries;
-  int exponent = 0;
-
-  // infinity if there is anything that is no number
-  double largest_entry() const
-  {
-    double result = 0;
-    for(double x : entries)
-      result = std::abs(x) <= (std::numeric_limits<double>::max)() ? (std::max)(result, std::abs(x))
-                                                                  : std::numeric_limits<double>::infinity();
-    return result;
-  }
-
-  void scale_to_one()
-  {
-    for(double& x : entries)
-      x = std::ldexp(x, exponent);
-    exponent = 0;
-  }
-
-  template <typename Wide>
-  Wide largest() const
-  {
-    using std::ldexp;
-    return Wide(ldexp(Wide(largest_entry()), exponent));
   }
 };
 

@@ -5,15 +5,14 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_LENGTH_PREDICATES_H
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
 
 #include <CGAL/enum.h>
-#include <CGAL/Exact_rational.h>
-#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
+#include <limits>
 #include <utility>
 
 // Exact predicates on lengths (paper, Section 2: the triangle inequalities, Definition 2.1),
@@ -36,43 +35,6 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-/// the value of `x`, exactly. \pre `x` is finite
-inline Exact_rational exact_rational(double x)
-{
-  return Exact_rational(x);
-}
-
-/// the value of `x`, exactly. \pre `x` is finite
-inline Exact_rational exact_rational(const Double_double& x)
-{
-  return Exact_rational(Exact_rational(x.hi) + Exact_rational(x.lo));
-}
-
-/// the value of `x`, exactly: `x = 2^e (d_1 + d_2 + ...)` with doubles `d_i`. \pre `x` is finite
-template <typename NT>
-Exact_rational exact_rational(const NT& x)
-{
-  static_assert(!std::is_integral<NT>::value, "lengths are floating-point numbers");
-  using std::frexp;
-  using std::ldexp;
-  int exponent = 0;
-  NT rest = frexp(x, &exponent);
-  Exact_rational result(0), bit(1); // bit: the weight of the piece
-  while(rest != 0)
-  {
-    NT scaled = ldexp(rest, 32);
-    const double piece = std::trunc(static_cast<double>(scaled)); // below 2^33: taken off without error
-    rest = scaled - piece;
-    bit /= Exact_rational(4294967296.);
-    result += bit * Exact_rational(piece);
-  }
-  for(; exponent > 0; exponent -= (std::min)(exponent, 1000))
-    result *= Exact_rational(std::ldexp(1., (std::min)(exponent, 1000)));
-  for(; exponent < 0; exponent += (std::min)(-exponent, 1000))
-    result /= Exact_rational(std::ldexp(1., (std::min)(-exponent, 1000)));
-  return result;
-}
 
 /// certifies the sign of `a + b - c` from products `a, b, c >= 0` with relative errors of at most `16 * 2^-53`;
 /// with those of the two additions the difference is off by less than `24 * 2^-53 (a + b + c)`, in any rounding mode.
@@ -128,7 +90,7 @@ inline void count_failure(std::size_t* filter_failures)
 }
 
 /// the exact sign of `a + b - c`, for lengths or any numbers that are not negative;
-/// for `double` without a single rational, in every rounding mode
+/// for `double` without a single exact number, in every rounding mode
 inline Sign triangle_inequality_sign(double a, double b, double c, std::size_t* = nullptr)
 {
   a = double_double::opaque(a);
@@ -146,7 +108,7 @@ inline Sign triangle_inequality_sign(double a, double b, double c, std::size_t* 
 }
 
 /// the exact sign of `a + b - c`
-/// \param filter_failures if given, is incremented when rationals were needed
+/// \param filter_failures if given, is incremented when exact numbers were needed
 template <typename NT>
 Sign triangle_inequality_sign(const NT& a, const NT& b, const NT& c, std::size_t* filter_failures = nullptr)
 {
@@ -154,8 +116,7 @@ Sign triangle_inequality_sign(const NT& a, const NT& b, const NT& c, std::size_t
   if(filtered_scaled_sign(1, 1, 1, static_cast<double>(a), static_cast<double>(c), static_cast<double>(b), sign))
     return sign;
   count_failure(filter_failures);
-  const Exact_rational difference(exact_rational(a) + exact_rational(b) - exact_rational(c));
-  return CGAL::sign(difference);
+  return (exact_number(a) + exact_number(b) - exact_number(c)).sign();
 }
 
 /// whether `a`, `b`, `c` are the edge lengths of a triangle: all three inequalities hold strictly
@@ -178,9 +139,28 @@ bool is_degenerate_triangle(const NT& a, const NT& b, const NT& c)
   return s != NEGATIVE && t != NEGATIVE && r != NEGATIVE && (s == ZERO || t == ZERO || r == ZERO);
 }
 
+// Lengths computed from coordinates are rounded: by less than 3.5 * 2^-53 for the square root of a sum of squares of
+// differences, so that those of a degenerate triangle can violate its inequality by 7 * 2^-53 of the longest.
+
+/// whether `a`, `b`, `c` are the lengths of a triangle, possibly a degenerate one, up to their rounding: no one is longer
+/// than the other two together by more than 4 epsilon (8 * 2^-53) of itself. Decided exactly
+template <typename NT>
+bool is_triangle_up_to_rounding(const NT& a, const NT& b, const NT& c)
+{
+  const auto holds = [](const NT& x, const NT& y, const NT& longest)
+  {
+    if(triangle_inequality_sign(x, y, longest) != NEGATIVE)
+      return true;
+    const Exact_number tolerated = exact_number(NT(4 * (std::numeric_limits<NT>::epsilon)())),
+                       rest = exact_number(x) + exact_number(y) - exact_number(longest);
+    return (rest + tolerated * exact_number(longest)).sign() != NEGATIVE;
+  };
+  return holds(a, b, c) && holds(b, c, a) && holds(c, a, b);
+}
+
 /// the exact sign of `s_i s_j l_ij + s_k s_i l_ki - s_j s_k l_jk`: whether the scaled edge opposite to vertex `i` is
 /// shorter than (`POSITIVE`), as long as (`ZERO`) or longer than (`NEGATIVE`) the other two together
-/// \param filter_failures if given, is incremented when rationals were needed
+/// \param filter_failures if given, is incremented when exact numbers were needed
 template <typename NT>
 Sign scaled_triangle_inequality_sign(const NT& s_i, const NT& s_j, const NT& s_k,
                                      const NT& l_ij, const NT& l_jk, const NT& l_ki,
@@ -191,14 +171,12 @@ Sign scaled_triangle_inequality_sign(const NT& s_i, const NT& s_j, const NT& s_k
                           static_cast<double>(l_ij), static_cast<double>(l_jk), static_cast<double>(l_ki), sign))
     return sign;
   count_failure(filter_failures);
-  const Exact_rational i = exact_rational(s_i), j = exact_rational(s_j), k = exact_rational(s_k);
-  const Exact_rational difference(i * (j * exact_rational(l_ij) + k * exact_rational(l_ki))
-                                  - j * k * exact_rational(l_jk));
-  return CGAL::sign(difference);
+  const Exact_number i = exact_number(s_i), j = exact_number(s_j), k = exact_number(s_k);
+  return (i * (j * exact_number(l_ij) + k * exact_number(l_ki)) - j * k * exact_number(l_jk)).sign();
 }
 
 /// whether the scaled lengths `s_i s_j l_ij`, `s_j s_k l_jk`, `s_k s_i l_ki` are those of a triangle
-/// \param filter_failures if given, is increased by the number of signs for which rationals were needed
+/// \param filter_failures if given, is increased by the number of signs for which exact numbers were needed
 template <typename NT>
 bool is_scaled_triangle(const NT& s_i, const NT& s_j, const NT& s_k,
                         const NT& l_ij, const NT& l_jk, const NT& l_ki,

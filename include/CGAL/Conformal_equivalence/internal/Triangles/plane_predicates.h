@@ -5,6 +5,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_PLANE_PREDICATES_H
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Exact_product_sum.h>
 
 #include <CGAL/enum.h>

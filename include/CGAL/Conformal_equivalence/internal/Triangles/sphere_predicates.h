@@ -5,11 +5,12 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_SPHERE_PREDICATES_H
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Exact_rational.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -61,7 +62,7 @@ inline bool is_counterclockwise(const std::array<Double_double, 3>& p, const std
   if(std::abs(value) > bound && bound > 1e-250)
     return value > 0;
   const auto exact = [](const std::array<Double_double, 3>& x)
-    { return std::array<Exact_rational, 3>{{ exact_rational(x[0]), exact_rational(x[1]), exact_rational(x[2]) }}; };
+    { return std::array<Exact_number, 3>{{ exact_number(x[0]), exact_number(x[1]), exact_number(x[2]) }}; };
   return determinant(exact(p), exact(q), exact(r)) > 0;
 }
 

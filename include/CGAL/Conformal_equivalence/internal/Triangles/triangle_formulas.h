@@ -146,13 +146,6 @@ struct Complex_number
   }
 };
 
-// e^{i alpha / 2} up to a positive factor, without a transcendental function.
-template <typename NT>
-Complex_number<NT> half_angle(const Incircle_form<NT>& t, int side)
-{
-  return {t.tangent[side], t.r};
-}
-
 // A sum of triangle corners, as the product of their half angles: one arc tangent at
 // the end instead of one for each. Every factor turns by less than pi / 2, so the
 // half turns can be counted.
@@ -199,7 +192,7 @@ private:
   int half_turns_ = 0;
 };
 
-// e^{i alpha}: the square of `half_angle()`, of absolute value 1.
+// e^{i alpha}, the square of (s - a) + i r, divided by its absolute value.
 template <typename NT>
 Complex_number<NT> rotation(const Incircle_form<NT>& t, int side)
 {

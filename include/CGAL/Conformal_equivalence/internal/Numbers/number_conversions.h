@@ -1,0 +1,45 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Conversions of numbers, as function objects.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NUMBERS_NUMBER_CONVERSIONS_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NUMBERS_NUMBER_CONVERSIONS_H
+
+#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+
+#include <limits>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+struct To_double
+{
+  template <typename NT> double operator()(const NT& x) const { return static_cast<double>(x); }
+};
+
+struct To_double_double
+{
+  Double_double operator()(double x) const { return x; }
+  const Double_double& operator()(const Double_double& x) const { return x; }
+  template <typename NT>
+  Double_double operator()(const NT& x) const
+  {
+    const double hi = static_cast<double>(x);
+    return two_sum(hi, static_cast<double>(NT(x - NT(hi))));
+  }
+};
+
+// whether numbers have the range of `double`
+template <typename NT>
+constexpr bool has_range_of_double()
+{
+  return std::numeric_limits<NT>::max_exponent <= std::numeric_limits<double>::max_exponent;
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NUMBERS_NUMBER_CONVERSIONS_H
