@@ -8,6 +8,7 @@
 #include "include/boost_test.h"
 #include "include/test_meshes.h"
 
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
