@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The cut graph and the seam mesh made of it. What is cut open is judged from its numbers of
-// vertices, edges, faces and borders alone; lengths of loops by a search in all homology classes.
+// The cut graph. What is cut open is judged from its numbers of vertices, edges, faces and borders
+// alone; lengths of loops by a search in all homology classes.
 
 #define BOOST_TEST_MODULE test_compute_cut_graph
 #include "include/boost_test.h"
@@ -10,7 +10,6 @@
 
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
-#include <CGAL/Conformal_equivalence/make_seam_mesh.h>
 
 #include <CGAL/Curves_on_surface_topology.h>
 #include <CGAL/Path_on_surface.h>
@@ -909,87 +908,4 @@ BOOST_AUTO_TEST_CASE(loops_are_not_contractible, * testing::needs_mesh("elephant
 {
   check_loops_not_contractible("elephant.off", 3);
   check_loops_not_contractible("knot1.off", 1);
-}
-
-// ---- The seam mesh
-
-typedef Mesh::Property_map<Mesh::Edge_index, bool>    Seam_map;
-typedef Mesh::Property_map<Mesh::Vertex_index, bool>  On_seam_map;
-
-void check_seam_mesh(Mesh& mesh, const Triangulation& t, const CE::Cut_graph& cut, Seam_map seam, On_seam_map on_seam, bool is_valid)
-{
-  const Triangulation open = CE::internal::cut_open(t, cut);
-  for(int time = 0; time < 2; ++time) // the second time with maps that are right already
-  {
-    const auto seam_mesh = CE::make_seam_mesh(mesh, seam, on_seam);
-    BOOST_TEST(num_faces(seam_mesh) == open.number_of_faces());
-    BOOST_TEST(num_edges(seam_mesh) == open.number_of_edges());
-    BOOST_TEST(num_halfedges(seam_mesh) == 2 * open.number_of_edges());
-    BOOST_TEST(num_vertices(seam_mesh) == open.number_of_vertices());
-    const auto size = [](const auto& range) { return std::distance(range.begin(), range.end()); };
-    BOOST_TEST(size(edges(seam_mesh)) == std::ptrdiff_t(open.number_of_edges()));
-    BOOST_TEST(size(halfedges(seam_mesh)) == 2 * std::ptrdiff_t(open.number_of_edges()));
-    BOOST_TEST(size(vertices(seam_mesh)) == std::ptrdiff_t(open.number_of_vertices()));
-    BOOST_TEST(CGAL::is_valid_polygon_mesh(seam_mesh) == is_valid);
-  }
-}
-
-void check_seam_mesh(const std::string& name, std::size_t number_of_cones)
-{
-  Mesh mesh;
-  BOOST_REQUIRE(read_triangles(testing::mesh_path(name), mesh));
-  const CE::Imported_mesh<Mesh> imported = CE::import_mesh(mesh);
-  Random random(10);
-  const std::vector<Index> cones = random_cones(imported.triangulation, number_of_cones, random);
-  const CE::Cut_graph cut = CE::compute_cut_graph(imported.triangulation, cones);
-  check_cut(imported.triangulation, cut, cones, 100);
-
-  Seam_map seam = mesh.add_property_map<Mesh::Edge_index, bool>("e:seam", false).first;
-  On_seam_map on_seam = mesh.add_property_map<Mesh::Vertex_index, bool>("v:on_seam", true).first; // wrong
-  for(Mesh::Edge_index e : edges(mesh))
-    seam[e] = is_border(e, mesh) || cut[imported.index_of_edge(e)];
-  check_seam_mesh(mesh, imported.triangulation, cut, seam, on_seam, true);
-
-  const std::vector<int> degree = cut_degrees(imported.triangulation, cut);
-  for(Mesh::Edge_index e : edges(mesh))
-    BOOST_TEST(seam[e] == cut[imported.index_of_edge(e)]);
-  for(Mesh::Vertex_index v : vertices(mesh))
-    BOOST_TEST(on_seam[v] == (degree[imported.index_of_vertex(v)] > 0));
-}
-
-BOOST_AUTO_TEST_CASE(seam_meshes, * testing::needs_mesh("elephant.off"))
-{
-  check_seam_mesh("elephant.off", 0);
-  check_seam_mesh("elephant.off", 5);
-  check_seam_mesh("knot1.off", 0);
-  check_seam_mesh("bear.off", 8);
-  check_seam_mesh("head.off", 3);
-  check_seam_mesh("elephant-with-holes.off", 4);
-}
-
-BOOST_AUTO_TEST_CASE(small_seam_meshes)
-{
-  // nothing cut; a seam through border vertices; one edge, which CGAL does not call valid
-  Mesh grid = testing::surface_mesh<Mesh>(testing::flat_grid(4)), sphere = testing::surface_mesh<Mesh>(testing::icosphere(1));
-  for(int kind = 0; kind < 3; ++kind)
-  {
-    Mesh& mesh = kind < 2 ? grid : sphere;
-    const CE::Imported_mesh<Mesh> imported = CE::import_mesh(mesh);
-    const Triangulation& t = imported.triangulation;
-    CE::Cut_graph cut;
-    cut.is_cut.assign(t.number_of_edges(), 0);
-    for(Index e = 0; e < t.number_of_edges(); ++e)
-    {
-      const Index h = t.edge_halfedge(e);
-      if(kind == 1)
-        cut.is_cut[e] = t.origin(h) % 5 == 2 && t.target(h) % 5 == 2; // the middle line
-      else if(kind == 2)
-        cut.is_cut[e] = e == 7;
-    }
-    Seam_map seam = mesh.add_property_map<Mesh::Edge_index, bool>("e:seam", false).first;
-    On_seam_map on_seam = mesh.add_property_map<Mesh::Vertex_index, bool>("v:on_seam", false).first;
-    for(Mesh::Edge_index e : edges(mesh))
-      seam[e] = cut[imported.index_of_edge(e)];
-    check_seam_mesh(mesh, t, cut, seam, on_seam, kind != 2);
-  }
 }
