@@ -42,6 +42,22 @@ enum class Newton_strategy
 };
 
 /// \ingroup PkgConformalEquivalenceEnums
+/// By what placements of cones are compared: the less the better.
+enum class Cone_measure
+{
+  MAXIMUM_U,       ///< the largest |u|
+  DIRICHLET_ENERGY ///< the Dirichlet energy of u: how much the scale varies, over the whole surface
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// The coordinates in which a seamless layout is given.
+enum class Seamless_coordinates
+{
+  CARTESIAN, ///< of the plane, a tile having the side 1 (squares), or its neighbors at the distance 1 (hexagons)
+  LATTICE    ///< (a, b) for a + b theta, see `Tiling`: for n = 2 and 4 the same; for n = 3 and 6 the coordinates in which seams are exact
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
 /// What a visitor is told that begins.
 enum class Stage
 {

@@ -42,15 +42,6 @@
 
 namespace CGAL {
 namespace Conformal_equivalence {
-
-/// \ingroup PkgConformalEquivalenceEnums
-/// The coordinates in which a seamless layout is given.
-enum class Seamless_coordinates
-{
-  CARTESIAN, ///< of the plane, a tile having the side 1 (squares), or its neighbors at the distance 1 (hexagons)
-  LATTICE    ///< (a, b) for a + b theta, see `Tiling`: for n = 2 and 4 the same; for n = 3 and 6 the coordinates in which seams are exact
-};
-
 namespace internal {
 
 struct Rectification_options

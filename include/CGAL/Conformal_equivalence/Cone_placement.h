@@ -1,0 +1,58 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// \file Cone_placement.h
+/// Cones that were placed, with the metric that has them (section 5.1 of Springborn, Schroeder and Pinkall, 2008).
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_CONE_PLACEMENT_H
+#define CGAL_CONFORMAL_EQUIVALENCE_CONE_PLACEMENT_H
+
+#include <CGAL/license/Surface_mesh_parameterization.h>
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+
+/// \ingroup PkgConformalEquivalenceSolver
+///
+/// The cones that were placed, and the metric with them.
+template <typename NT_ = double>
+struct Cone_placement
+{
+  typedef NT_ NT;              ///< number type of the lengths
+  typedef std::uint32_t Index; ///< of vertices
+
+  std::vector<Index> cones;                ///< in ascending order
+  std::vector<Exact_angle<NT> > angles;    ///< by cone: the angle sum, exactly if it was rounded to a multiple
+  std::vector<double> free_angles;         ///< by cone: what it was before it was rounded, when all cones were free (radians, up to 1e-6)
+  bool is_rounded = false;                 ///< whether angles were rounded
+  std::vector<Index> flattened;            ///< cones whose angles were rounded to 2 pi: they are none any more
+
+  Conformal_metric<NT> metric;             ///< with these angle sums, and u = 0 on borders
+  double maximum_log_scale_factor = 0;     ///< the largest |u| of `metric`
+
+  /// the largest factor, or its inverse, by which `metric` scales areas relative to the total area: of its triangles; where edges were flipped, of the
+  /// surroundings of vertices, e^{2u}. 1 if there is no metric
+  double area_distortion = 1;
+  std::size_t number_of_sweeps = 0;        ///< of the concurrent optimization
+  std::size_t number_of_moves = 0;         ///< of single cones to vertices nearby that made it better
+  std::size_t number_of_solves = 0;        ///< linear systems solved with the one factor
+
+  Status status = Status::OK;              ///< whether the cones could be placed, or why not
+  double amount = 0;                       ///< see `Status`
+
+  /// is `true` iff there is a placement that is as asked for.
+  explicit operator bool() const { return is_success(status); }
+};
+
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_CONE_PLACEMENT_H

@@ -1,0 +1,425 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Cones that place themselves: greedily, then all of them concurrently, then one after the other (section 5.1 of Springborn, Schroeder and Pinkall, 2008); with
+// angles that are rounded to multiples of 2 pi / n (section 6), if that is wanted. What is tried is compared to first order (Cone_search.h); the metric with the
+// cones that were found is solved for.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Cone_placement.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_search.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/area_distortion.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/nearest_integers.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/options.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+struct Cone_options
+{
+  std::size_t number_of_cones = 0; // 0: not given
+  double maximum_u = 0;            // 0: not given
+  double maximum_area_distortion = 0; // 0: not given
+  double angle_quantum = 0;        // 0: none
+  Cone_measure measure = Cone_measure::MAXIMUM_U;
+  std::size_t number_of_sweeps = 10;
+};
+
+template <typename NT, typename NamedParameters>
+class Cone_placer
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<NT> Triangulation;
+  typedef typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t, NamedParameters,
+                                                       Default_solver_traits>::type Solver_traits;
+  typedef Cone_search<NT, Solver_traits> Search;
+
+public:
+  Cone_placer(const Triangulation& t, const Cone_options& options, const NamedParameters& np)
+    : t_(t), options_(options), np_(np), pieces_(connected_components(t))
+  {}
+
+  Cone_placement<NT> operator()()
+  {
+    if(!check())
+      return std::move(result_);
+    Search search(t_, pieces_.components[0], traits(), options_.measure);
+    if(!check_number(search))
+      return std::move(result_);
+    if(!search.factorize())
+    {
+      refuse(Status::SINGULAR_PROBLEM);
+      return std::move(result_);
+    }
+    Placement p = search.without_cones(Vertex_vector(t_.number_of_vertices(), 0.));
+    if(!search.relax(p, 20) || p.error > 1e-2)
+      p = search.without_cones(first_u());
+    place_greedily(search, p);
+    p = optimized(search, std::move(p));
+    p = moved(search, p);
+    std::sort(p.cones.begin(), p.cones.end());
+    result_.cones = p.cones;
+    if(options_.angle_quantum > 0)
+      quantize(search, std::move(p));
+    else
+    {
+      solve(p);
+      if(is_success(result_.metric.status))
+        take_angles(free_angles());
+    }
+    result_.number_of_solves = search.number_of_solves();
+    finish();
+    return std::move(result_);
+  }
+
+private:
+  static constexpr std::size_t most_cones_for_bound = 256;
+
+  // Copies of solver traits may share one factor (those of Eigen_solver_traits do). The factor of the search must not be replaced by those of the
+  // metrics that are solved for meanwhile.
+  Solver_traits traits() const
+  {
+    if constexpr(std::is_default_constructible<Solver_traits>::value)
+      return Solver_traits();
+    else
+      return parameters::get_parameter(np_, internal_np::sparse_linear_solver);
+  }
+
+  void refuse(Status status, double amount = 0)
+  {
+    result_.status = status;
+    result_.amount = amount;
+  }
+
+  // ---- What can be asked for
+
+  bool check()
+  {
+    if(t_.number_of_faces() == 0)
+      result_.status = Status::EMPTY_MESH;
+    else if(pieces_.components.size() != 1)
+      result_.status = Status::WRONG_TOPOLOGY;
+    else if(options_.number_of_cones == 0 && !has_bound())
+      result_.status = Status::MISSING_CONDITION;
+    return result_.status == Status::OK;
+  }
+
+  bool has_bound() const { return options_.maximum_u > 0 || options_.maximum_area_distortion > 0; }
+  bool is_sphere() const { return number_of_borders() == 0 && pieces_.components[0].euler_characteristic() > 0; }
+  std::size_t number_of_borders() const { return pieces_.components[0].number_of_borders; }
+
+  bool check_number(const Search& search)
+  {
+    const std::size_t n = search.candidates().size();
+    if(options_.number_of_cones > n || (is_sphere() && n < 3))
+      refuse(Status::TOO_MANY_CONES, double(n));
+    else if(is_sphere() && options_.number_of_cones > 0 && options_.number_of_cones < 3)
+      refuse(Status::MISSING_CONDITION, 4 * Number_constants<double>::pi());
+    else if(options_.angle_quantum > 0 && quanta_of_turn() == 0)
+      refuse(Status::ANGLE_OUT_OF_RANGE, options_.angle_quantum);
+    else
+      return true;
+    return false;
+  }
+
+  // n of the quantum 2 pi / n; 0 if it is none
+  long quanta_of_turn() const
+  {
+    const double n = 2 * Number_constants<double>::pi() / options_.angle_quantum, nearest = std::round(n);
+    return nearest >= 1 && nearest <= 2520 && std::abs(n - nearest) < 1e-6 ? long(nearest) : 0;
+  }
+
+  // ---- Metrics
+
+  Conformal_conditions<NT> natural_conditions() const { return Conformal_conditions<NT>(t_); }
+
+  // Without a cone; the curvature of a closed surface is spread equally.
+  Vertex_vector first_u() const
+  {
+    Conformal_conditions<NT> conditions = natural_conditions();
+    if(number_of_borders() == 0)
+    {
+      const Surface_components::Component& c = pieces_.components[0];
+      const double pi = Number_constants<double>::pi(), angle = 2 * pi - 2 * pi * double(c.euler_characteristic()) / double(c.number_of_vertices);
+      for(Index v = 0; v < t_.number_of_vertices(); ++v)
+        if(!t_.is_isolated_vertex(v))
+          conditions.prescribe_angle_sum(v, NT(angle));
+    }
+    const Conformal_metric<NT> metric = compute_conformal_metric(t_, conditions, Conformal_equivalence::combine_named_parameters(
+      np_, parameters::gradient_tolerance(1e-4)));
+    Vertex_vector u(t_.number_of_vertices(), 0.);
+    for(std::size_t v = 0; v < u.size() && v < metric.log_scale_factors.size(); ++v)
+      u[v] = static_cast<double>(metric.log_scale_factors[v]);
+    return u;
+  }
+
+  // With the cones of the result: free, or with the angles given. Begins with what the search has found, if it has found something.
+  void solve(const Placement& p, const std::vector<Exact_angle<NT> >& angles = std::vector<Exact_angle<NT> >())
+  {
+    Conformal_conditions<NT> conditions = natural_conditions();
+    for(std::size_t i = 0; i < result_.cones.size(); ++i)
+    {
+      if(angles.empty())
+        conditions.fix_log_scale_factor(result_.cones[i], NT(0));
+      else
+        conditions.prescribe_angle_sum(result_.cones[i], angles[i]);
+    }
+    const Vertex_vector u = p.error <= 0.1 ? p.u : Vertex_vector(p.u.size(), 0.);
+    const auto initial_u = boost::make_iterator_property_map(u.begin(), boost::typed_identity_property_map<Index>());
+    result_.metric = compute_conformal_metric(t_, conditions, Conformal_equivalence::combine_named_parameters(
+      np_, parameters::initial_log_scale_factor_map(initial_u)));
+    measure();
+  }
+
+  void measure()
+  {
+    result_.maximum_log_scale_factor = 0;
+    for(const NT& u : result_.metric.log_scale_factors)
+      result_.maximum_log_scale_factor = (std::max)(result_.maximum_log_scale_factor, std::abs(static_cast<double>(u)));
+    if(is_success(result_.metric.status))
+      result_.area_distortion = area_distortion_of_metric(t_, result_.metric);
+  }
+
+  // ---- Angles of free cones
+
+  std::vector<double> free_angles() const
+  {
+    std::vector<double> result;
+    for(Index c : result_.cones)
+      result.push_back(angle_sum_at(result_.metric, c));
+    return result;
+  }
+
+  void take_angles(const std::vector<double>& angles)
+  {
+    result_.free_angles = angles;
+    for(double angle : angles)
+    {
+      Exact_angle<NT> exact;
+      exact.rest = NT(angle);
+      result_.angles.push_back(exact);
+    }
+  }
+
+  // Before they are rounded: from the search, or, where that finds no metric, from the metric with free cones. Returns whether there are any.
+  bool find_free_angles(Search& search, Placement& p)
+  {
+    const double close = 1e-6;
+    if(search.relax(p, 30, close) && p.error <= close)
+    {
+      for(double curvature : search.curvatures(p))
+        result_.free_angles.push_back(search.flat_angle(p) - curvature);
+      return true;
+    }
+    solve(p);
+    if(is_success(result_.metric.status))
+      result_.free_angles = free_angles();
+    return is_success(result_.metric.status);
+  }
+
+  void finish()
+  {
+    if(result_.status != Status::OK)
+      return;
+    result_.status = result_.metric.status;
+    result_.amount = result_.metric.amount;
+    if(!is_success(result_.status))
+      return;
+    if(options_.maximum_u > 0 && !(result_.maximum_log_scale_factor <= options_.maximum_u))
+      refuse(Status::BOUND_NOT_MET, result_.maximum_log_scale_factor);
+    else if(options_.maximum_area_distortion > 0 && !(result_.area_distortion <= options_.maximum_area_distortion))
+      refuse(Status::BOUND_NOT_MET, result_.area_distortion);
+  }
+
+  // ---- Placement
+
+  bool is_enough(const Placement& p) const
+  {
+    if(is_sphere() && p.cones.size() < 3)
+      return false;
+    if(options_.number_of_cones > 0 && p.cones.size() >= options_.number_of_cones)
+      return true;
+    return has_bound() && (!(options_.maximum_u > 0) || largest_entry(p.u) <= options_.maximum_u)
+                       && (!(options_.maximum_area_distortion > 0) || area_distortion_of_faces(t_, p.u) <= options_.maximum_area_distortion);
+  }
+
+  // A cone where |u| is largest, again and again.
+  void place_greedily(Search& search, Placement& p) const
+  {
+    const int steps = 3;
+    while(!is_enough(p) && p.cones.size() < (std::min)(search.candidates().size(), options_.number_of_cones > 0 ? options_.number_of_cones
+                                                                                                                : most_cones_for_bound))
+    {
+      if(!search.put_cone(p))
+        return;
+      search.relax(p, steps);
+    }
+  }
+
+  // Nonlinear Gauss-Seidel: each cone in turn is taken out, and put where |u| is largest then. Keeps the best.
+  Placement optimized(Search& search, Placement p)
+  {
+    Placement best = p;
+    std::set<std::vector<Index> > seen = {sorted(p.cones)};
+    for(std::size_t sweep = 0; sweep < options_.number_of_sweeps && p.cones.size() > 1; ++sweep)
+    {
+      ++result_.number_of_sweeps;
+      const std::vector<Index> before = sorted(p.cones);
+      for(std::size_t i = 0; i < before.size(); ++i)
+      {
+        search.take_cone(p, 0, search.curvatures(p)[0]); // the cone that has been there longest
+        if(!search.put_cone(p))
+          return best;
+      }
+      search.relax(p, 2);
+      if(p.measure < best.measure && p.error <= (std::max)(best.error, 0.1))
+        best = p;
+      if(!seen.insert(sorted(p.cones)).second)
+        break;
+    }
+    return best;
+  }
+
+  static std::vector<Index> sorted(std::vector<Index> cones)
+  {
+    std::sort(cones.begin(), cones.end());
+    return cones;
+  }
+
+  // Moves single cones to vertices nearby, as long as that makes it better: always that which promises most. What is promised is exact to first order, but for vertices with a
+  // large |u| that have not been looked at, and but for the new place itself: vertices that break a promise are looked at from then on,
+  // and shorter moves are tried.
+  Placement moved(Search& search, const Placement& first)
+  {
+    const std::size_t reach = (std::max)(std::size_t(2), std::size_t(std::sqrt(double(search.candidates().size())) / 6));
+    const double gain = 5e-4;
+    Placement p = first;
+    std::set<std::pair<Index, Index> > tried;
+    std::size_t number_of_moves = 0;
+    search.watch(p);
+    for(int failures = 0; reach >> (failures / 2) > 0; )
+    {
+      const Cone_move move = search.best_move(p, reach >> (failures / 2), tried);
+      const double enough = (1 - gain) * p.measure;
+      if(!(move.expected < enough))
+        break;
+      Placement trial = search.moved(p, move.cone, move.curvature, move.to);
+      if(trial.measure < enough && search.relax(trial, 2, 1e-2, false) && trial.measure < enough)
+      {
+        p = std::move(trial);
+        ++number_of_moves;
+        tried.clear();
+        failures = 0;
+        search.watch(p);
+      }
+      else
+      {
+        tried.insert(std::make_pair(p.cones[move.cone], move.to));
+        ++failures;
+        search.watch(trial);
+      }
+    }
+    if(number_of_moves == 0 || !search.relax(p, 6) || !(p.measure < first.measure))
+      return first;
+    result_.number_of_moves += number_of_moves;
+    return p;
+  }
+
+  // ---- Multiples of an angle
+
+  // Rounds the angles, takes out the cones that have become flat, and moves the others again.
+  void quantize(Search& search, Placement p)
+  {
+    if(!find_free_angles(search, p))
+      return;
+    const long n = quanta_of_turn();
+    const double quantum = 2 * Number_constants<double>::pi() / double(n);
+    std::vector<double> x;
+    for(double angle : result_.free_angles)
+      x.push_back(angle / quantum);
+    const long sum = number_of_borders() > 0 ? 0 : n * (long(x.size()) - long(pieces_.components[0].euler_characteristic()));
+    const std::vector<long> k = number_of_borders() == 0 && sum <= 0 ? std::vector<long>() : nearest_integers(x, sum);
+    if(k.empty() && !x.empty())
+    {
+      refuse(Status::NOT_QUANTIZABLE, double(sum) * quantum);
+      return;
+    }
+    result_.is_rounded = true;
+    Placement q;
+    q.u = std::move(p.u);
+    std::vector<std::pair<Index, std::size_t> > kept;
+    for(std::size_t i = 0; i < k.size(); ++i)
+    {
+      if(k[i] == n)
+        result_.flattened.push_back(result_.cones[i]);
+      else
+      {
+        q.cones.push_back(result_.cones[i]);
+        q.angles.push_back(double(k[i]) * quantum);
+        kept.emplace_back(result_.cones[i], i);
+      }
+    }
+    if(!q.cones.empty() && search.relax(q, 6))
+      q = moved(search, q);
+    std::vector<std::pair<Index, std::size_t> > order;
+    for(std::size_t i = 0; i < kept.size(); ++i)
+      order.emplace_back(q.cones[i], kept[i].second);
+    std::sort(order.begin(), order.end());
+    const std::vector<double> free_angles = std::move(result_.free_angles);
+    result_.cones.clear();
+    result_.angles.clear();
+    result_.free_angles.clear();
+    for(const auto& cone : order)
+    {
+      result_.cones.push_back(cone.first);
+      result_.angles.push_back(multiple(k[cone.second], n));
+      result_.free_angles.push_back(free_angles[cone.second]);
+    }
+    solve(q, result_.angles);
+  }
+
+  static Exact_angle<NT> multiple(long k, long n)
+  {
+    if(2 * Exact_angle<NT>::units_of_pi % n == 0)
+    {
+      Exact_angle<NT> result;
+      result.units = std::int32_t(k * (2 * Exact_angle<NT>::units_of_pi / n));
+      return result;
+    }
+    return Exact_angle<NT>(Number_constants<NT>::pi() * int(2 * k) / int(n));
+  }
+
+  const Triangulation& t_;
+  const Cone_options options_;
+  const NamedParameters& np_;
+  const Surface_components pieces_;
+  Cone_placement<NT> result_;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H

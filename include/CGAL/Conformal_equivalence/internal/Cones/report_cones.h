@@ -1,0 +1,58 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What a placement of cones tells the user of a mesh.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_REPORT_CONES_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_REPORT_CONES_H
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Cone_placement.h>
+#include <CGAL/Conformal_equivalence/Flattening_report.h>
+#include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// What the cones of the report, those that were placed, were before their angles were rounded.
+template <typename TriangleMesh>
+void report_rounding(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_placement<double>& placement, Flattening_report<TriangleMesh>& report)
+{
+  for(std::size_t i = 0; i < report.cones.size(); ++i)
+    report.cones[i].free_angle = placement.free_angles[i];
+  for(std::uint32_t v : placement.flattened)
+    report.flattened_cones.push_back(mesh.vertex(v));
+}
+
+// What became of a placement: status, elements at fault, and the cones, if there are any. `report` is that of the import.
+template <typename TriangleMesh>
+void report_cones(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_placement<double>& placement, Flattening_report<TriangleMesh>& report)
+{
+  const Conformal_metric<double>& metric = placement.metric;
+  report.statistics = metric.statistics;
+  report.status = placement.status;
+  report.amount = placement.amount;
+  if(!metric.is_retriangulated())
+    name_elements(mesh, metric.vertices, {}, metric.faces, report);
+  if(!bool(report) && report.status != Status::BOUND_NOT_MET)
+    return;
+  for(std::size_t i = 0; i < placement.cones.size(); ++i)
+  {
+    const auto v = mesh.vertex(placement.cones[i]);
+    const Exact_angle<double>& angle = placement.angles[i];
+    report.cones.push_back({v, mesh.index_of_vertex(v), angle.template radians<double>(), !placement.is_rounded});
+  }
+  report_rounding(mesh, placement, report);
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_REPORT_CONES_H
