@@ -27,6 +27,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/feasibility.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/starting_point.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <CGAL/assertions.h>
 
@@ -432,7 +433,6 @@ private:
   bool linear_has_flips_ = false; // the edges of `linear_` are not those of `triangulation_`
 };
 
-// (Outside of the class, so that it is not compiled where the compiled library has it.)
 template <typename NT>
 Conformal_metric<NT> Metric_finder<NT>::find(const Conditions& conditions, const Solver_options& options)
 {
@@ -450,6 +450,10 @@ Conformal_metric<NT> Metric_finder<NT>::find(const Conditions& conditions, const
   result.statistics.seconds.solve = stopwatch.seconds();
   return result;
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Conformal_metric<double> Metric_finder<double>::find(const Conditions&, const Solver_options&);
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence
