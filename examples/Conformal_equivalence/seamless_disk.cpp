@@ -4,7 +4,7 @@
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 
 #include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
-#include <CGAL/Conformal_equivalence/discrete_metric.h>
+#include <CGAL/Conformal_equivalence/edge_lengths.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
 

@@ -10,7 +10,8 @@
 
 #include <CGAL/Conformal_equivalence/Surface_locator.h>
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
-#include <CGAL/Conformal_equivalence/Common_refinement.h>
+#include <CGAL/Conformal_equivalence/compute_common_refinement.h>
+#include <CGAL/Conformal_equivalence/Refinement_locator.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>

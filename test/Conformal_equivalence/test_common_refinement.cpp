@@ -9,7 +9,10 @@
 #include "include/flipped_metrics.h"
 
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
-#include <CGAL/Conformal_equivalence/Common_refinement.h>
+#include <CGAL/Conformal_equivalence/compute_common_refinement.h>
+#include <CGAL/Conformal_equivalence/make_refined_mesh.h>
+#include <CGAL/Conformal_equivalence/Refinement_locator.h>
+#include <CGAL/Conformal_equivalence/triangulate_refinement.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
@@ -631,6 +634,35 @@ BOOST_AUTO_TEST_CASE(more_digits)
   for(std::size_t c = 0; c < fine.crossings.size(); ++c)
     BOOST_TEST(std::abs(double(fine.crossings[c].input_parameter) / coarse.crossings[c].input_parameter - 1) <= 1e-14);
   BOOST_TEST(CE::triangulate_refinement(fine).is_positive());
+}
+
+BOOST_AUTO_TEST_CASE(converted_metrics_lose_nothing)
+{
+  typedef boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<100>, boost::multiprecision::et_off> Real_100;
+  const Triangulation t = triangulation<double>(hill(3, .5));
+  Metric metric = flipped_metric(t, {}, std::vector<double>(t.number_of_vertices(), -.25));
+  metric.is_doubled = true;
+  metric.lost_border_edges = {1, 3};
+  metric.active_bounds = {2, 5};
+  metric.vertices = {0};
+  metric.edges = {4};
+  metric.faces = {1};
+  metric.amount = .5;
+  metric.status = Status::ITERATIONS_EXHAUSTED;
+  const auto wide = CE::convert_metric<Real_100>(metric);
+  BOOST_TEST(wide.is_doubled);
+  BOOST_TEST(wide.lost_border_edges == metric.lost_border_edges);
+  BOOST_TEST(wide.active_bounds == metric.active_bounds);
+  BOOST_TEST(wide.vertices == metric.vertices);
+  BOOST_TEST(wide.edges == metric.edges);
+  BOOST_TEST(wide.faces == metric.faces);
+  BOOST_TEST(wide.amount == metric.amount);
+  BOOST_TEST((wide.status == metric.status));
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+  {
+    BOOST_TEST(double(wide.log_scale_factors[v]) == metric.log_scale_factors[v]);
+    BOOST_TEST((wide.scale_factors[v] == Real_100(metric.scale_factors[v].hi) + Real_100(metric.scale_factors[v].lo)));
+  }
 }
 
 // --- the verdict --------------------------------------------------------------------------------

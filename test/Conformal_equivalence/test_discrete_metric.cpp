@@ -8,6 +8,7 @@
 #include "include/test_meshes.h"
 
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
+#include <CGAL/Conformal_equivalence/edge_lengths.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>

@@ -12,6 +12,7 @@
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
+#include <CGAL/Conformal_equivalence/edge_lengths.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 
 #include <CGAL/Eigen_solver_traits.h>

@@ -8,6 +8,7 @@
 #include "include/flattened_meshes.h"
 
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
+#include <CGAL/Conformal_equivalence/edge_lengths.h>
 #include <CGAL/Conformal_equivalence/flatten_repaired.h>
 #include <CGAL/Conformal_equivalence/repair_locally.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>

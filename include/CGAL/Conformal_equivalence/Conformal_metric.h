@@ -13,10 +13,12 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -81,7 +83,40 @@ double angle_sum_at(const Conformal_metric<NT>& metric, std::uint32_t v)
   return result;
 }
 
+template <typename To, typename From> To convert_number(const From& x) { return To(x); }
+template <typename To> To convert_number(const Double_double& x) { return To(x.hi) + To(x.lo); }
+
 } // namespace internal
+
+/// \ingroup PkgConformalEquivalenceLayout
+///
+/// returns the same metric held in numbers of another, wider type, nothing being rounded: where scale factors range too far for the
+/// points of a layout to differ in `double`, `compute_common_refinement()` of the converted metric and `input.with_lengths()` lays it out with more
+/// digits.
+///
+/// \tparam Other_NT a number type wider than `Conformal_metric::Wide_number`, such as a Boost.Multiprecision number; not `double`
+template <typename Other_NT, typename NT>
+Conformal_metric<Other_NT> convert_metric(const Conformal_metric<NT>& metric)
+{
+  const Intrinsic_triangulation<NT>& t = metric.triangulation;
+  Conformal_metric<Other_NT> result;
+  std::vector<Other_NT> lengths;
+  for(const NT& l : t.lengths())
+    lengths.push_back(Other_NT(l));
+  result.triangulation = t.with_lengths(std::move(lengths));
+  result.is_doubled = metric.is_doubled;
+  result.flips = metric.flips;
+  for(const NT& u : metric.log_scale_factors)
+    result.log_scale_factors.push_back(Other_NT(u));
+  for(const auto& s : metric.scale_factors)
+    result.scale_factors.push_back(internal::convert_number<Other_NT>(s));
+  result.lost_border_edges = metric.lost_border_edges;
+  result.active_bounds = metric.active_bounds;
+  result.set_outcome(metric);
+  result.statistics = metric.statistics;
+  return result;
+}
+
 } // namespace Conformal_equivalence
 } // namespace CGAL
 

@@ -4,7 +4,7 @@
 /// \file Surface_locator.h
 /// The map of a surface to a flat metric, point by point. Where the metric needed flips (section 3.2 of Springborn, Schroeder and
 /// Pinkall, 2008), the map is projective on the parts into which the edges of both triangulations cut the surface
-/// (common_refinement.h). There can be many more of them than there are faces. But a point needs only those of its own face: how
+/// (Common_refinement.h). There can be many more of them than there are faces. But a point needs only those of its own face: how
 /// often its sides are crossed tells how they are cut off (Gillespie, Sharp and Crane, "Integer Coordinates for Intrinsic Geometry
 /// Processing", 2021), and the strips of flat triangles along the sides tell where.
 ///
@@ -26,10 +26,12 @@
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Bounding_strip.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Box_tree.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/normal_coordinates.h>
-#include <CGAL/Conformal_equivalence/internal/Overlay/Overlay.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Geodesic_strip.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Triangle_cells.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/overlay_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/projective_cell.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -41,7 +43,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -50,69 +51,6 @@
 
 namespace CGAL {
 namespace Conformal_equivalence {
-
-namespace internal {
-
-// A part of the plane that holds some points: that of their bounding box between two parallels, which leave a long and thin shape
-// little room. It holds them for certain: the distances from the parallels are not trusted beyond their rounding errors.
-class Bounding_strip
-{
-  static constexpr double infinity_ = std::numeric_limits<double>::infinity();
-
-  std::array<double, 4> box_ = {{ infinity_, infinity_, -infinity_, -infinity_ }};
-  std::array<double, 2> normal_ = {{ 0, 0 }};         // of the parallels; 0 if there are none
-  double low_ = infinity_, high_ = -infinity_;
-
-  double height(double x, double y) const { return normal_[0] * x + normal_[1] * y; }
-  static double error(double x, double y) { return 8 * std::numeric_limits<double>::epsilon() * (std::abs(x) + std::abs(y)); }
-
-public:
-  // The parallels get the direction of the longest side of the triangle.
-  explicit Bounding_strip(const std::array<std::array<double, 2>, 3>& triangle)
-  {
-    double longest = 0;
-    for(std::size_t k = 0; k < 3; ++k)
-    {
-      const std::array<double, 2> &p = triangle[k], &q = triangle[(k + 1) % 3];
-      const double x = q[0] - p[0], y = q[1] - p[1], length = std::hypot(x, y);
-      if(longest < length && std::isfinite(length))
-      {
-        longest = length;
-        normal_ = {{ -y / length, x / length }};
-      }
-    }
-    for(const std::array<double, 2>& p : triangle)
-      insert(p);
-  }
-
-  // Points that are not finite are left out.
-  void insert(const std::array<double, 2>& p)
-  {
-    if(!std::isfinite(p[0]) || !std::isfinite(p[1]))
-      return;
-    for(std::size_t k = 0; k < 2; ++k)
-    {
-      box_[k] = (std::min)(box_[k], p[k]);
-      box_[k + 2] = (std::max)(box_[k + 2], p[k]);
-    }
-    low_ = (std::min)(low_, height(p[0], p[1]) - error(p[0], p[1]));
-    high_ = (std::max)(high_, height(p[0], p[1]) + error(p[0], p[1]));
-  }
-
-  // Least x and y, greatest x and y.
-  std::array<double, 4> box() const
-  {
-    return box_[0] <= box_[2] ? box_ : std::array<double, 4>{{ 0, 0, -1, -1 }}; // which contains nothing
-  }
-
-  // Is the point between the parallels?
-  bool is_between(double x, double y) const
-  {
-    return height(x, y) + error(x, y) >= low_ && height(x, y) - error(x, y) <= high_;
-  }
-};
-
-} // namespace internal
 
 /// \ingroup PkgConformalEquivalenceLayout
 ///

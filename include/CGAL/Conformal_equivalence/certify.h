@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
+#include <CGAL/Conformal_equivalence/compute_common_refinement.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
@@ -139,6 +140,10 @@ std::vector<char> uncut_interior_vertices(const Intrinsic_triangulation<NT>& t, 
   return result;
 }
 
+// How far the sum of the angles of the layout around a vertex may be from what it must be, in radians. It is far above the rounding of
+// the angles, which are summed up in `double`, and far below 2 pi, by which the sum is wrong if the faces turn once too often.
+constexpr double angle_tolerance = 1e-10;
+
 // The faces turn as they must: once around whatever is not cut, and by the angle prescribed elsewhere. The sum of angles of
 // positive faces that are glued together is a multiple of 2 pi, so that rounding cannot hide another one.
 template <typename NT>
@@ -146,7 +151,7 @@ void judge_turning(const Intrinsic_triangulation<double>& input, const Common_re
                    const Conformal_conditions<double>& conditions, Layout_certificate& certificate)
 {
   const std::vector<char> is_uncut = uncut_interior_vertices(input, cut);
-  const double allowed = 1e-10, turn = 2 * Number_constants<double>::pi();
+  const double turn = 2 * Number_constants<double>::pi();
   for(std::uint32_t v = 0; v < input.number_of_vertices(); ++v)
   {
     if(input.is_isolated_vertex(v))
@@ -159,7 +164,7 @@ void judge_turning(const Intrinsic_triangulation<double>& input, const Common_re
       error = conditions.is_bounded(v) ? (std::max)(error, 0.) : std::abs(error);
     }
     certificate.angle_error = error <= certificate.angle_error ? certificate.angle_error : error;
-    if(!(error <= allowed) || (is_uncut[v] && !(std::abs(sum - turn) <= allowed)))
+    if(!(error <= angle_tolerance) || (is_uncut[v] && !(std::abs(sum - turn) <= angle_tolerance)))
       certificate.turning_vertices.push_back(v);
   }
 }

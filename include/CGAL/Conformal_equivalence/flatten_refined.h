@@ -14,6 +14,9 @@
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
+#include <CGAL/Conformal_equivalence/compute_common_refinement.h>
+#include <CGAL/Conformal_equivalence/make_refined_mesh.h>
+#include <CGAL/Conformal_equivalence/triangulate_refinement.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -29,11 +32,13 @@ namespace Conformal_equivalence {
 /// \ingroup PkgConformalEquivalenceDoors
 ///
 /// flattens a triangle mesh of any topology, as `flatten()` does, and makes a mesh of the parts into which the edges of the metric's triangulation
-/// cut the given one. Where no edge was flipped that is a copy. The texture coordinates on the new mesh are continuous across all edges but those of the
+/// cut the given one. Where no edge was flipped that is a copy. The texture coordinates on the new mesh are continuous across all edges but those
+/// of the
 /// seam; with the projective weights, the map of every triangle is the restriction of the projective maps of section 3.4 of the paper, and
 /// preserves the circumcircles of the triangles given.
 ///
-/// Vertices of `tm` come first in `refined`, in the order of `vertices(tm)`, then the crossings of edges, which lie on edges of `tm`. All faces are triangles
+/// Vertices of `tm` come first in `refined`, in the order of `vertices(tm)`, then the crossings of edges, which lie on edges of `tm`. All faces are
+/// triangles
 /// unless these would make several edges between the same two vertices; then they are convex polygons.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
@@ -52,13 +57,15 @@ namespace Conformal_equivalence {
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{input_face_map}
 ///     \cgalParamDescription{receives the face of `tm` that a face of `refined` is a part of}
-///     \cgalParamType{a writable property map with key type `boost::graph_traits<RefinedMesh>::%face_descriptor` and value type `boost::graph_traits<TriangleMesh>::%face_descriptor`}
+///     \cgalParamType{a writable property map with key type `boost::graph_traits<RefinedMesh>::%face_descriptor` and value type
+///       `boost::graph_traits<TriangleMesh>::%face_descriptor`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
 /// \return the report of `flatten()`, with `bent_faces`. Meshes and maps are written iff it is a success. Statuses: those of `flatten()`,
-///         where `NOT_INJECTIVE` means that rounding has made a triangle of `refined` flat or flipped (faces: those of `tm` that hold such triangles), and
+///         where `NOT_INJECTIVE` means that rounding has made a triangle of `refined` flat or flipped (faces: those of `tm` that hold such
+///         triangles), and
 ///         `NOT_REPRESENTABLE` if `refined` cannot hold the result.
 ///
 /// Time is that of `flatten()`, and linear in the number of crossings.

@@ -10,7 +10,8 @@
 #include "options.h"
 #include "results.h"
 
-#include <CGAL/Conformal_equivalence/Common_refinement.h>
+#include <CGAL/Conformal_equivalence/make_refined_mesh.h>
+#include <CGAL/Conformal_equivalence/triangulate_refinement.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 
 #include <algorithm>

@@ -40,6 +40,21 @@ class Rectangle_corner_selection
   typedef std::uint32_t Index;
   typedef std::array<Index, 4> Choice; // positions in `candidates_`, increasing
 
+  // Some 10 000 choices of four, all of which the linearized problem tries: no time beside one factorization.
+  static constexpr std::size_t maximum_number_of_candidates_ = 24;
+
+  // Newton's method takes some ten steps where a choice is good; one that needs more than this is none of the best.
+  static constexpr unsigned int maximum_number_of_iterations_ = 30;
+
+  // Energies need a few digits to be compared, residuals in radians no more than these.
+  static constexpr double gradient_tolerance_ = 1e-8;
+
+  // By how much the linearized energy may call an exchange worse and it is tried nevertheless: a quarter.
+  static constexpr double hopeful_ratio_ = 1.25;
+
+  // What improves the energy by less, relatively, is the error of the solution.
+  static constexpr double least_improvement_ = 1e-9;
+
 public:
   // `border` are the vertices of the border of the disk `t`, in order
   Rectangle_corner_selection(const Intrinsic_triangulation<double>& t, const std::vector<Index>& border)
@@ -80,7 +95,7 @@ private:
   // maxima first, at most `most_candidates` of them; all forced ones.
   void find_candidates()
   {
-    const std::size_t most_candidates = (std::min)(std::size_t(24), border_.size());
+    const std::size_t most_candidates = (std::min)(maximum_number_of_candidates_, border_.size());
     const std::vector<double> turning = natural_turning();
     const std::size_t n = border_.size();
     const auto rank = [&](Index i)
@@ -103,7 +118,7 @@ private:
   }
 
   // There are many maps to compare. What is not found soon, or not on this triangulation, is none of the best.
-  static auto quickly() { return parameters::retriangulation(Retriangulation::NEVER).number_of_iterations(30u); }
+  static auto quickly() { return parameters::retriangulation(Retriangulation::NEVER).number_of_iterations(maximum_number_of_iterations_); }
 
   // pi - angle sum at the border of the natural map; of the surface itself if there is no such map
   std::vector<double> natural_turning() const
@@ -205,7 +220,7 @@ private:
       conditions.prescribe_angle_sum(v, Exact_angle<double>::pi_times(1));
     for(Index a : c)
       conditions.prescribe_angle_sum(border_[candidates_[a]], Exact_angle<double>::pi_times(1, 2));
-    const Conformal_metric<double> metric = solver_.solve(conditions, quickly().gradient_tolerance(1e-8));
+    const Conformal_metric<double> metric = solver_.solve(conditions, quickly().gradient_tolerance(gradient_tolerance_));
     return metric ? dirichlet_energy(t_, metric.log_scale_factors) : std::numeric_limits<double>::infinity();
   }
 
@@ -226,14 +241,14 @@ private:
             continue;
           c[k] = a;
           std::sort(c.begin(), c.end());
-          if(linear_energy(c) < 1.25 * linear_energy(best))
+          if(linear_energy(c) < hopeful_ratio_ * linear_energy(best))
             moves.emplace_back(linear_energy(c), c);
         }
       std::sort(moves.begin(), moves.end());
       for(const auto& move : moves)
       {
         const double e = energy(move.second);
-        if(e < least * (1 - 1e-9))
+        if(e < least * (1 - least_improvement_))
         {
           least = e;
           best = move.second;

@@ -1,12 +1,14 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+// Whether a layout covers some part of the plane twice, decided exactly from its border alone. Only `verify_layout()` needs this header, which
+// brings kernels of CGAL along.
+
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_COVER_SWEEP_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_COVER_SWEEP_H
 
-#include <CGAL/license/Surface_mesh_parameterization.h>
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,6 +16,7 @@
 #include <iterator>
 #include <set>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -245,6 +248,41 @@ private:
   bool is_covered_twice_ = false;
   std::size_t witness_[2] = {0, 0};
 };
+
+// All pairs of segments that cross properly, in lexicographic order.
+inline std::vector<std::pair<std::size_t, std::size_t> >
+properly_crossing_pairs(const std::vector<Border_segment>& segments)
+{
+  typedef Box_intersection_d::Box_with_info_d<double, 2, std::size_t> Box;
+
+  std::vector<Box> boxes;
+  boxes.reserve(segments.size());
+  for(std::size_t s = 0; s < segments.size(); ++s)
+    boxes.emplace_back(segments[s].source.bbox() + segments[s].target.bbox(), s);
+
+  std::vector<std::pair<std::size_t, std::size_t> > pairs;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b)
+  {
+    const Border_segment &s = segments[a.info()], &t = segments[b.info()];
+    if(cross_properly(s.source, s.target, t.source, t.target))
+      pairs.push_back(std::minmax({a.info(), b.info()}));
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+// The pairs of segments that prove that the layout covers something twice; empty if it does not.
+inline std::vector<std::pair<std::size_t, std::size_t> >
+find_overlaps(const std::vector<Border_segment>& segments)
+{
+  const Cover_sweep sweep(segments);
+  if(!sweep.is_covered_twice())
+    return {};
+  auto pairs = properly_crossing_pairs(segments);
+  if(pairs.empty())
+    pairs.emplace_back(sweep.first_witness(), sweep.second_witness());
+  return pairs;
+}
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -3,15 +3,8 @@
 
 // The developing map of a metric whose triangulation was flipped, for the corners of
 // the triangulation that was given. An edge of the latter crosses some triangles of
-// the former; laid out one behind the other, they tell where the edge leads:
-//
-//             c0        .
-//          B------D           The edge from O, the origin of the halfedge `first`, leaves its triangle OAB
-//         / \    / \          through c0 = AB, and the next one through c1 = AD, to the apex E of the last.
-//        /   \  /c1 \         The vector from O to E is measured in the frame in which `first`, OA,
-//       O-----A------E        has the direction 1.
-//        first
-//
+// the former; laid out one behind the other (Unfolded_strip.h), they tell where the edge leads: its vector
+// is measured in the frame of the halfedge of the flipped triangulation with which the strip begins, which has the direction 1.
 // The angle between two such vectors at a vertex is the sum of the angles of the triangles
 // between their frames.
 
@@ -21,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/Unfolded_strip.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/normal_coordinates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
@@ -130,52 +124,15 @@ private:
     return {Wide(z.re / length), Wide(z.im / length)};
   }
 
-  // e^{i alpha} for the angle at the origin of the halfedge h of the flipped triangulation
-  Complex turn_at_origin(Index h) const
-  {
-    return rotation(Incircle_form<Wide>(metric_.wide_scaled_length(h), metric_.wide_scaled_length(t_.next(h)),
-                                        metric_.wide_scaled_length(t_.previous(h))), 1);
-  }
-
+  // The vector from the origin of a path to its target, in the frame of its first halfedge.
   Complex unfold(const Normal_coordinates::Path& path) const
   {
     if(path.is_edge)
       return {metric_.wide_scaled_length(path.first), Wide(0)};
-    Index h = path.first;                              // the triangle on its left is laid out next;
-    Complex origin{Wide(0), Wide(0)}, direction{Wide(1), Wide(0)}; // h begins here, and has this direction
-    Complex apex = lay_out_apex(h, origin, direction);
+    Unfolded_strip<NT> strip(metric_, path.first);
     for(Index c : path.crossed)
-    {
-      // the side c of the triangle of h, and its direction
-      const Index next = t_.next(h);
-      Complex begin, along;
-      if(c == next)
-      {
-        const Wide l = metric_.wide_scaled_length(h);
-        begin = {origin.re + l * direction.re, origin.im + l * direction.im};
-        const Complex at_target = turn_at_origin(next); // the angle at the target of h
-        along = direction * Complex{-at_target.re, at_target.im};
-      }
-      else
-      {
-        begin = apex;
-        const Complex to_apex = direction * turn_at_origin(h);
-        along = {-to_apex.re, -to_apex.im};
-      }
-      const Wide l = metric_.wide_scaled_length(c);
-      origin = {begin.re + l * along.re, begin.im + l * along.im};
-      direction = {-along.re, -along.im};
-      h = t_.twin(c);
-      apex = lay_out_apex(h, origin, direction);
-    }
-    return apex;
-  }
-
-  Complex lay_out_apex(Index h, const Complex& origin, const Complex& direction) const
-  {
-    const Complex to_apex = direction * turn_at_origin(h);
-    const Wide l = metric_.wide_scaled_length(t_.previous(h));
-    return {origin.re + l * to_apex.re, origin.im + l * to_apex.im};
+      strip.cross(c);
+    return strip.apex();
   }
 
   // Origin, target and apex of the input halfedge h, in its frame.
@@ -191,7 +148,7 @@ private:
       Index g = along.first;
       for(Index next = t_.next_around_origin(g); ; next = t_.next_around_origin(g))
       {
-        turn = turn * turn_at_origin(g);
+        turn = turn * turn_at_origin(metric_, g);
         if(next == t_.null_index)
           break;
         g = next;
@@ -205,7 +162,7 @@ private:
       Index g = along.first;
       do
       {
-        turn = turn * turn_at_origin(g);
+        turn = turn * turn_at_origin(metric_, g);
         g = t_.next_around_origin(g);
       }
       while(g != other.first);

@@ -60,7 +60,8 @@ double power_of_two_near(const Piece& piece, const std::vector<Complex_number<Wi
   int exponent = 0;
   if(largest > 0 && std::isfinite(largest))
     std::frexp(largest, &exponent);
-  return std::ldexp(1., (std::max)(-1000, (std::min)(1000, exponent)));
+  const int most = 1000; // a unit whose inverse is in the range of `double`, too
+  return std::ldexp(1., (std::max)(-most, (std::min)(most, exponent)));
 }
 
 // The number of absolute value 1 in the direction of (x, y), to all digits.
@@ -137,6 +138,13 @@ std::uint32_t reference_halfedge(const Intrinsic_triangulation<NT>& t, const Pie
   return 3 * piece.faces.front();
 }
 
+// A shape has a longest principal axis if its two second moments differ by this much, relative to their sum: less may be rounding, and
+// the axis of a square or a disk would then be left to chance.
+constexpr double least_elongation = 1e-6;
+
+// Likewise the third moment, relative to that of the absolute distances, of a shape that is not symmetric.
+constexpr double least_skewness = 1e-9;
+
 // Barycentre in the origin, the longer principal axis horizontal. Of the two ways left, the one with the larger third
 // moment to the right.
 template <typename NT, typename Wide>
@@ -152,7 +160,7 @@ void move_to_canonical_frame(const Intrinsic_triangulation<NT>& t, const std::ve
   const auto corner = [&](std::uint32_t h) { return scaled(position[wedge[h]]); };
   const Area_moments m = area_moments(piece.faces, corner);
   double x = m.xx - m.yy, y = 2 * m.xy; // (cos, sin) of twice the angle of the axis
-  if(std::hypot(x, y) > 1e-6 * (m.xx + m.yy))
+  if(std::hypot(x, y) > least_elongation * (m.xx + m.yy))
   {
     const double length = std::hypot(x, y);
     x = std::sqrt((std::max)(0., (1 + x / length) / 2));
@@ -173,7 +181,7 @@ void move_to_canonical_frame(const Intrinsic_triangulation<NT>& t, const std::ve
     third += along * along * along;
     absolute_third += std::abs(along * along * along);
   }
-  const double turn = third < -1e-9 * absolute_third ? -1 : 1;
+  const double turn = third < -least_skewness * absolute_third ? -1 : 1;
   apply_similarity(unit_direction<Wide>(turn * x, -turn * y),
                    Double_point{{m.barycentre[0] * unit, m.barycentre[1] * unit}}, Double_point{{0, 0}}, piece, position);
 }
@@ -211,10 +219,10 @@ struct Rows
     double area = 0, widest = 0, largest = 0;
     for(const Bounding_box& box : boxes)
       largest = (std::max)(largest, box.size());
-    const double gap = largest / 32;
+    const double relative_gap = 1. / 32, gap = largest * relative_gap; // enough to see, and no waste of space
     for(const Bounding_box& box : boxes)
     {
-      area += (box.width() / largest + 1. / 32) * (box.height() / largest + 1. / 32);
+      area += (box.width() / largest + relative_gap) * (box.height() / largest + relative_gap);
       widest = (std::max)(widest, box.width() + gap);
     }
     std::vector<std::size_t> order(boxes.size());
@@ -222,7 +230,8 @@ struct Rows
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t i, std::size_t j) { return boxes[i].height() > boxes[j].height(); });
 
-    const double bound = (std::max)(widest, 1.1 * std::sqrt(area) * largest);
+    const double slack = 1.1; // rows are not filled to their ends: a square of just the area would become too high
+    const double bound = (std::max)(widest, slack * std::sqrt(area) * largest);
     double x = 0, y = 0, row = 0; // of the current row
     for(std::size_t i : order)
     {
@@ -254,7 +263,8 @@ void arrange_pieces(const std::vector<Piece>& pieces, std::vector<Complex_number
     int exponent = 0;
     if(boxes[i].size() > 0 && std::isfinite(boxes[i].size()))
       std::frexp(boxes[i].size(), &exponent);
-    blocks[(exponent + 4000) / 4].push_back(i);
+    const int per_block = 4, positive = 4000; // sizes of a block differ by at most 2^4; the shift makes division round down
+    blocks[(exponent + positive) / per_block].push_back(i);
   }
   double width = 0, height = 0;
   for(const auto& block : blocks)

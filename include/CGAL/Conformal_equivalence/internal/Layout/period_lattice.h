@@ -49,6 +49,20 @@ struct Cut_motion
 template <typename NT>
 double size_of(const Complex_number<NT>& z) { return std::hypot(static_cast<double>(z.re), static_cast<double>(z.im)); }
 
+// Reductions end by themselves, as numbers become smaller; rounding must not make them go round in circles. A pair of `double` of any
+// size whatever is reduced in some hundred steps.
+constexpr int maximum_number_of_reduction_steps = 1000;
+
+// How far the quotient of two periods may be from the border of the fundamental domain and still count as lying on it, so that square and
+// hexagonal tori get the same basis however they were rounded.
+constexpr double fundamental_domain_tolerance = 1e-10;
+
+// What is not longer than this, relative to the lengths that take part, is no period but the error of one ...
+constexpr double period_tolerance = 1e-9;
+
+// ... and a motion that turns by no more than this, in radians, is a translation. Cones turn by far more.
+constexpr double rotation_tolerance = 1e-6;
+
 // A lattice given by ever more generators, each known up to some error: what is not longer than
 // the error is no vector.
 template <typename NT>
@@ -84,7 +98,7 @@ class Reduced_basis
   // Lagrange and Gauss: the shorter one first, the other as short as it can be.
   void reduce_pair()
   {
-    for(int step = 0; step < 1000; ++step)
+    for(int step = 0; step < maximum_number_of_reduction_steps; ++step)
     {
       if(size_of(basis_[1]) < size_of(basis_[0]))
         std::swap(basis_[0], basis_[1]);
@@ -101,7 +115,7 @@ public:
   // Euclid's algorithm: what is left of the generator replaces the longest vector, which becomes the next generator.
   void insert(Complex z)
   {
-    for(int step = 0; step < 1000; ++step)
+    for(int step = 0; step < maximum_number_of_reduction_steps; ++step)
     {
       z = reduced(z);
       if(!(size_of(z) > error_))
@@ -129,7 +143,7 @@ public:
     Complex a = basis_[0], b = basis_[1];
     if(cross(a, b) < NT(0))
       b = {-b.re, -b.im};
-    const double boundary = 1e-10;
+    const double boundary = fundamental_domain_tolerance;
     const auto re_tau = [&] { return static_cast<double>(NT(product(a, b) / product(a, a))); };
     if(re_tau() < -.5 + boundary)
       b = minus(b, a, -1);
@@ -189,10 +203,10 @@ Reduced_basis<NT> period_basis(std::vector<Cut_motion<NT> > motions, std::uint32
     motion = home[motion.to_piece].after(motion.after(home[motion.from_piece].inverse()));
     longest = (std::max)(longest, (std::max)(length, size_of(motion.translation)));
   }
-  Reduced_basis<NT> basis(1e-9 * longest);
+  Reduced_basis<NT> basis(period_tolerance * longest);
   for(const Motion& motion : motions)
   {
-    if(std::abs(static_cast<double>(motion.rotation.re) - 1) + std::abs(static_cast<double>(motion.rotation.im)) > 1e-6)
+    if(std::abs(static_cast<double>(motion.rotation.re) - 1) + std::abs(static_cast<double>(motion.rotation.im)) > rotation_tolerance)
       return Reduced_basis<NT>(0);
     basis.insert(motion.translation);
   }

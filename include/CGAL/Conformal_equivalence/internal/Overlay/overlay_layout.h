@@ -7,10 +7,10 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/compute_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/Development.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/Flipped_development.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/layout_frames.h>
-#include <CGAL/Conformal_equivalence/internal/Overlay/Overlay.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Geodesic_strip.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
 

@@ -76,7 +76,8 @@ inline bool is_left_turn(const std::array<Double_double, 2>& p, const std::array
   return has_finite_coordinates(p) && has_finite_coordinates(q) && has_finite_coordinates(r) && exact_turn(p, q, r) == LEFT_TURN;
 }
 
-// for other numbers `true` only if that is certain: the two differences and the product have an error of one unit each.
+// for other numbers `true` only if that is certain: the two differences and the product of each of the two terms have an error of one unit each,
+// and the bound is twice as large, for numbers that are rounded in other ways than to the nearest.
 template <typename NT>
 bool is_left_turn(const std::array<NT, 2>& p, const std::array<NT, 2>& q, const std::array<NT, 2>& r)
 {

@@ -1,0 +1,153 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The developing map of a flat metric: the triangles are laid out in the plane, one after the other in breadth-first order of the dual graph
+// (section 3.3 of Springborn, Schroeder and Pinkall, 2008).
+//
+// The direction of an edge is the sum of the corner angles on the way to it, a
+// length is that of the metric itself: errors of one triangle are not multiplied
+// by the next. All of it runs in a wider number type and is rounded once, at the end.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_DEVELOPMENT_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_DEVELOPMENT_H
+
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Cut_graph.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+template <typename NT>
+class Development
+{
+  typedef std::uint32_t Index;
+  typedef Conformal_metric<NT> Metric;
+
+public:
+  typedef typename Metric::Wide_number Wide;
+  typedef Complex_number<Wide> Complex;
+
+  std::vector<Complex> position;   // by wedge
+  std::vector<char> is_laid_out;   // by face
+
+  Development(const Metric& metric, const Cut_graph& cut, const Wedges& wedges)
+    : position(wedges.number_of_wedges, Complex{Wide(0), Wide(0)}),
+      is_laid_out(metric.triangulation.number_of_faces(), 0),
+      metric_(metric), t_(metric.triangulation), cut_(cut), wedges_(wedges),
+      is_placed_(wedges.number_of_wedges, 0)
+  {}
+
+  Wide length(Index h) const { return metric_.wide_scaled_length(h); }
+
+  // Lays out everything that is connected with `root`.
+  void operator()(Index root)
+  {
+    std::queue<std::pair<Index, Complex> > queue; // a halfedge both ends of which are placed, and its direction
+
+    const Index h = 3 * root;
+    const Complex east = {Wide(1), Wide(0)};
+    place(origin_wedge(h), Complex{Wide(0), Wide(0)});
+    place(wedges_.of_corner[h], Complex{metric_.wide_scaled_length(h), Wide(0)});
+    is_laid_out[root] = 1;
+    queue.emplace(h, east);
+    while(!queue.empty())
+    {
+      const Index g = queue.front().first;
+      const std::array<Complex, 3> direction = lay_out_triangle(g, queue.front().second);
+      queue.pop();
+      Index side = g;
+      for(int k = 0; k < 3; ++k, side = t_.next(side))
+      {
+        if(t_.is_border(side) || cut_[t_.edge(side)] || is_laid_out[t_.face(t_.twin(side))])
+          continue;
+        is_laid_out[t_.face(t_.twin(side))] = 1;
+        queue.emplace(t_.twin(side), Complex{-direction[k].re, -direction[k].im});
+      }
+    }
+  }
+
+private:
+  Index origin_wedge(Index h) const { return wedges_.of_corner[t_.previous(h)]; }
+
+  void place(Index wedge, const Complex& z)
+  {
+    if(is_placed_[wedge])
+      return;
+    is_placed_[wedge] = 1;
+    position[wedge] = z;
+  }
+
+  // Places the apex of the triangle of h, where h lies already, in the given
+  // direction. Returns the directions of h, next(h) and previous(h).
+  std::array<Complex, 3> lay_out_triangle(Index h, const Complex& direction)
+  {
+    const Index next = t_.next(h), previous = t_.previous(h);
+    const Wide length = metric_.wide_scaled_length(previous);
+    const Incircle_form<Wide> triangle(metric_.wide_scaled_length(h), metric_.wide_scaled_length(next), length);
+    const Complex at_origin = rotation(triangle, 1), at_target = rotation(triangle, 2);
+
+    const Complex to_apex = direction * at_origin;
+    const Complex along_next = direction * Complex{-at_target.re, at_target.im};
+    const Complex& origin = position[origin_wedge(h)];
+    place(wedges_.of_corner[next], Complex{origin.re + length * to_apex.re, origin.im + length * to_apex.im});
+    return {{direction, along_next, Complex{-to_apex.re, -to_apex.im}}};
+  }
+
+  const Metric& metric_;
+  const Intrinsic_triangulation<NT>& t_;
+  const Cut_graph& cut_;
+  const Wedges& wedges_;
+  std::vector<char> is_placed_;
+};
+
+// Rounds the positions and measures by how much lengths have changed, in the faces that are laid out.
+template <typename NT, typename Developed>
+void round_positions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut, const Wedges& wedges,
+                     const Developed& development, const NT& scale, Layout<NT>& layout)
+{
+  using std::abs;
+  using std::sqrt;
+  layout.corner.resize(t.number_of_halfedges(), std::array<NT, 2>{{NT(0), NT(0)}});
+  for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
+  {
+    const auto& z = development.position[wedges.of_corner[h]];
+    if(development.is_laid_out[t.face(h)])
+      layout.corner[h] = {{static_cast<NT>(z.re), static_cast<NT>(z.im)}};
+  }
+
+  const auto measure = [&](std::uint32_t h, const NT& length)
+  {
+    const std::array<NT, 2> &p = layout.corner[t.previous(h)], &q = layout.corner[h];
+    const NT x = (q[0] - p[0]) / length, y = (q[1] - p[1]) / length;
+    const double error = static_cast<double>(abs(NT(sqrt(NT(x * x + y * y)) - 1)));
+    layout.length_error = (std::max)(layout.length_error, std::isfinite(error) ? error : 1);
+  };
+  for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
+  {
+    const std::uint32_t h = t.edge_halfedge(e), g = t.twin(h);
+    const NT length = static_cast<NT>(development.length(h)) * scale;
+    if(development.is_laid_out[t.face(h)])
+      measure(h, length);
+    if(cut[e] && !t.is_border(h) && development.is_laid_out[t.face(g)])
+      measure(g, length);
+  }
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_DEVELOPMENT_H

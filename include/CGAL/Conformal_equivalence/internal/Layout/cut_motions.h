@@ -1,0 +1,89 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The motions of the plane by which a layout goes on across the edges that are cut, and the lattices of flat tori.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_CUT_MOTIONS_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_CUT_MOTIONS_H
+
+#include <CGAL/Conformal_equivalence/Cut_graph.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/period_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
+#include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// The motion across the cut edge of h.
+template <typename NT, typename Developed>
+Cut_motion<typename Developed::Wide>
+find_motion(const Intrinsic_triangulation<NT>& t, const Wedges& wedges, const std::vector<std::uint32_t>& piece_of_face,
+            const Developed& development, std::uint32_t h)
+{
+  typedef typename Developed::Wide Wide;
+  typedef typename Developed::Complex Complex;
+  using std::sqrt;
+  const std::uint32_t g = t.twin(h);
+  const auto corner = [&](std::uint32_t i) -> const Complex& { return development.position[wedges.of_corner[i]]; };
+  const Complex &p = corner(t.previous(h)), &q = corner(h), &p2 = corner(g), &q2 = corner(t.previous(g));
+  const double length = size_of(Complex{Wide(q.re - p.re), Wide(q.im - p.im)});
+  const Complex side{Wide((q.re - p.re) / length), Wide((q.im - p.im) / length)},
+                side2{Wide((q2.re - p2.re) / length), Wide((q2.im - p2.im) / length)};
+  Complex r = quotient(side2, side);
+  const Wide size = sqrt(Wide(r.re * r.re + r.im * r.im));
+  r = {Wide(r.re / size), Wide(r.im / size)};
+  const Complex moved = r * p;
+  return {piece_of_face[t.face(h)], piece_of_face[t.face(g)], r,
+          Complex{Wide(p2.re - moved.re), Wide(p2.im - moved.im)}, length};
+}
+
+// The motions across the cut edges between faces that are laid out, and the lattices of the flat tori.
+template <typename NT, typename Developed>
+void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut, const Wedges& wedges,
+                      const Developed& development, Layout<NT>& layout)
+{
+  typedef Cut_motion<typename Developed::Wide> Motion;
+  const auto rounded = [](const auto& z) { return std::array<NT, 2>{{static_cast<NT>(z.re), static_cast<NT>(z.im)}}; };
+  std::uint32_t number_of_pieces = 0;
+  const std::vector<std::uint32_t> piece_of_face = pieces_of_faces(t, cut, number_of_pieces);
+  const Surface_components surface = connected_components(t);
+  std::vector<std::vector<Motion> > motions_of_torus(surface.components.size());
+
+  for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
+  {
+    const std::uint32_t h = t.edge_halfedge(e), c = surface.component_of_vertex[t.origin(h)];
+    if(!cut[e] || t.is_border(h) || !development.is_laid_out[t.face(h)] || !development.is_laid_out[t.face(t.twin(h))])
+      continue;
+    const Motion motion = find_motion(t, wedges, piece_of_face, development, h);
+    layout.transitions.push_back({h, rounded(motion.rotation), rounded(motion.translation)});
+    if(surface.components[c].is_torus())
+      motions_of_torus[c].push_back(motion);
+  }
+  for(std::size_t c = 0; c < motions_of_torus.size(); ++c)
+  {
+    const std::uint32_t first = surface.components[c].first_face;
+    const auto basis = period_basis(std::move(motions_of_torus[c]), piece_of_face[first], number_of_pieces);
+    if(!basis.is_complete())
+      continue;
+    const auto periods = basis.standard_basis();
+    layout.lattices.push_back({first, {{rounded(periods.first), rounded(periods.second)}},
+                               rounded(quotient(periods.second, periods.first))});
+  }
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_CUT_MOTIONS_H

@@ -1,0 +1,91 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The pieces that the cuts leave of a surface, laid out one by one and put beside one another: whether the triangulation was flipped or not,
+// and whether the metric is one of the surface given or of its double.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_LAY_OUT_PIECES_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_LAY_OUT_PIECES_H
+
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Cut_graph.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/Development.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/Flipped_development.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/cut_motions.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/layout_frames.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
+#include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
+#include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// Lays out the given pieces only.
+template <typename NT, typename Developed, typename Frame>
+Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Cut_graph& cut, const Wedges& wedges,
+                          const std::vector<Piece>& pieces, const Frame& frame, Developed development)
+{
+  Layout<NT> layout;
+  for(const Piece& piece : pieces)
+    development(piece.central_face);
+  const NT scale = move_to_frame(input, wedges.of_corner, pieces, frame, development.position);
+  round_positions(input, cut, wedges, development, scale, layout);
+  if(!cut.is_cut.empty())
+    find_transitions(input, cut, wedges, development, layout);
+  return layout;
+}
+
+template <typename NT, typename Frame>
+Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
+                          const Wedges& wedges, const std::vector<Piece>& pieces, const Frame& frame)
+{
+  if(!metric.is_retriangulated())
+    return lay_out_pieces(input, cut, wedges, pieces, frame, Development<NT>(metric, cut, wedges));
+  Flipped_development<NT> development(input, metric, cut, wedges);
+  std::vector<NT> lengths;
+  lengths.reserve(input.number_of_edges());
+  for(std::uint32_t e = 0; e < input.number_of_edges(); ++e)
+    lengths.push_back(static_cast<NT>(development.length(input.edge_halfedge(e))));
+  Layout<NT> layout = lay_out_pieces(input, cut, wedges, pieces, frame, std::move(development));
+  layout.straight_lengths = std::move(lengths);
+  return layout;
+}
+
+template <typename NT, typename Frame, typename Is_wanted>
+Layout<NT> lay_out_whole(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
+                         const Frame& frame, Is_wanted is_wanted)
+{
+  const Wedges wedges = find_wedges(input, cut);
+  std::vector<Piece> pieces = find_pieces(input, cut, wedges);
+  pieces.erase(std::remove_if(pieces.begin(), pieces.end(), [&](const Piece& piece) { return !is_wanted(piece); }), pieces.end());
+  return lay_out_pieces(input, metric, cut, wedges, pieces, frame);
+}
+
+// Lays out the pieces for which is_wanted(piece). Of a metric of the double, cut along the border, only those of the surface itself.
+template <typename NT, typename Frame, typename Is_wanted>
+Layout<NT> lay_out(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
+                   const Frame& frame, Is_wanted is_wanted)
+{
+  if(!metric.is_doubled)
+    return lay_out_whole(input, metric, cut, frame, is_wanted);
+  const Surface_double<NT> twofold(input);
+  Layout<NT> layout = lay_out_whole(twofold.triangulation, metric, twofold.cut(input, cut), frame, [&](const Piece& piece)
+    { return piece.faces.front() < input.number_of_faces() && is_wanted(piece); });
+  layout.corner.resize(input.number_of_halfedges());
+  layout.straight_lengths.resize(input.number_of_edges());
+  return layout;
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_LAY_OUT_PIECES_H
