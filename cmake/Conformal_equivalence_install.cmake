@@ -1,8 +1,8 @@
 # Copyright (c) 2026  The Conformal_equivalence developers.
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# What `cmake --install` copies: the headers and the package configuration, for
-# find_package(Conformal_equivalence).
+# What `cmake --install` copies: the headers, the compiled library if it was built, and the
+# package configuration, for find_package(Conformal_equivalence).
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -12,6 +12,10 @@ set(_package_dir "${CMAKE_INSTALL_DATADIR}/cmake/Conformal_equivalence")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
         FILES_MATCHING PATTERN "*.h")
 install(TARGETS Conformal_equivalence EXPORT Conformal_equivalence_targets)
+if(TARGET Conformal_equivalence_compiled)
+  install(TARGETS Conformal_equivalence_compiled EXPORT Conformal_equivalence_targets
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+endif()
 install(EXPORT Conformal_equivalence_targets
         NAMESPACE Conformal_equivalence::
         FILE Conformal_equivalenceTargets.cmake

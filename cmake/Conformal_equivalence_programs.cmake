@@ -4,26 +4,19 @@
 # Brings in the folders test/, examples/ and benchmark/, gives their programs
 # include directory, warnings and optional libraries, and runs them by CTest.
 
-add_compile_options(-Wall -Wextra -Wpedantic)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # wrong, and about Boost.Multiprecision: from -O2 on g++ warns of inlined system headers too
-  add_compile_options(-Wno-maybe-uninitialized)
-endif()
-if(CONFORMAL_EQUIVALENCE_WARNINGS_AS_ERRORS)
-  add_compile_options(-Werror)
-endif()
-if(CONFORMAL_EQUIVALENCE_SANITIZERS)
-  add_compile_options(-fsanitize=${CONFORMAL_EQUIVALENCE_SANITIZERS}
-                      -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  add_link_options(-fsanitize=${CONFORMAL_EQUIVALENCE_SANITIZERS})
-endif()
-
 link_libraries(Conformal_equivalence::Conformal_equivalence)
+if(TARGET Conformal_equivalence::compiled)
+  link_libraries(Conformal_equivalence::compiled)
+endif()
 foreach(_name CHOLMOD METIS TBB)
   if(TARGET Conformal_equivalence::${_name}_support)
     link_libraries(Conformal_equivalence::${_name}_support)
   endif()
 endforeach()
+
+# The flags for warnings and sanitizers; see Conformal_equivalence_flags.cmake.
+add_compile_options(${CONFORMAL_EQUIVALENCE_COMPILE_FLAGS})
+add_link_options(${CONFORMAL_EQUIVALENCE_LINK_FLAGS})
 
 set(_folders)
 foreach(_kind test examples benchmark)
@@ -34,6 +27,29 @@ foreach(_kind test examples benchmark)
     list(APPEND _folders ${_kind})
   endif()
 endforeach()
+
+# ---------------------------------------------------- precompiled headers ----
+
+# What nearly all programs include of other libraries, precompiled once: that is a third of their time of compiling. Not of this
+# package, so that it stays visible what its headers include.
+if(CONFORMAL_EQUIVALENCE_PRECOMPILE_HEADERS)
+  file(CONFIGURE OUTPUT generated/precompiled_headers.cpp CONTENT "" @ONLY)
+  add_library(precompiled_headers OBJECT "${PROJECT_BINARY_DIR}/generated/precompiled_headers.cpp")
+  target_precompile_headers(precompiled_headers PRIVATE
+    <CGAL/Simple_cartesian.h> <CGAL/Surface_mesh.h> <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
+    <CGAL/Eigen_solver_traits.h> <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+    <boost/graph/dijkstra_shortest_paths.hpp> <boost/multiprecision/cpp_bin_float.hpp> <boost/property_map/function_property_map.hpp>
+    <algorithm> <cmath> <functional> <map> <memory> <random> <set> <sstream> <string> <vector>)
+  foreach(_folder IN LISTS _folders)
+    get_property(_programs DIRECTORY "${PROJECT_SOURCE_DIR}/${_folder}/Conformal_equivalence" PROPERTY BUILDSYSTEM_TARGETS)
+    foreach(_program IN LISTS _programs)
+      get_target_property(_type ${_program} TYPE)
+      if(_type MATCHES "^(EXECUTABLE|STATIC_LIBRARY|OBJECT_LIBRARY)$")
+        target_precompile_headers(${_program} REUSE_FROM precompiled_headers)
+      endif()
+    endforeach()
+  endforeach()
+endif()
 
 # ------------------------------------------------- all headers together ----
 
