@@ -189,7 +189,7 @@ void prescribe_rectangle(const TriangleMesh& tm,
 /// dozens of solutions with a kept factor.
 ///
 /// \param tm a triangle mesh
-/// \param bhd a halfedge of the border of a topological disk
+/// \param bhd a halfedge of the border of a topological disk; `null_halfedge()` is refused (`WRONG_TOPOLOGY`)
 /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
 ///
 /// \cgalNamedParamsBegin
@@ -214,14 +214,15 @@ select_rectangle_corners(const TriangleMesh& tm,
 {
   using parameters::get_parameter;
   typedef boost::graph_traits<TriangleMesh> Graph_traits;
-  CGAL_precondition(is_border(bhd, tm));
+  const bool is_null = bhd == Graph_traits::null_halfedge(); // what PMP::longest_border() returns for closed meshes
+  CGAL_precondition(is_null || is_border(bhd, tm));
 
   std::array<typename Graph_traits::vertex_descriptor, 4> corners;
   corners.fill(Graph_traits::null_vertex());
 
   const Imported_mesh<TriangleMesh> mesh = import_mesh(tm, np);
   Flattening_report<TriangleMesh> report = internal::import_report(mesh);
-  if(bool(report) && !report.topology.is_disk())
+  if(bool(report) && (is_null || !report.topology.is_disk()))
     report.status = Status::WRONG_TOPOLOGY;
   if(bool(report))
   {

@@ -610,8 +610,7 @@ void write_report(const Flattening_report<TriangleMesh>& report, const NamedPara
 /// \param uv receives, at every halfedge `h`, where `target(h, tm)` lies in the triangle of `face(h, tm)`; a
 ///        border halfedge receives what `prev(opposite(h, tm), tm)` does. So `uv[target(hd, seam_mesh)]` is what it should be for the `Seam_mesh`
 ///        that `make_seam_mesh()` makes of the seam.
-/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below,
-///        beginning with one of this package
+/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd

@@ -4,14 +4,18 @@
 /// \file named_parameters.h
 /// The named parameters that this package adds to \cgal's.
 ///
-/// \cgal's named parameters are members of one class, which cannot be extended
-/// from outside. The class `Conformal_named_parameters` below therefore derives
-/// from it and knows both lists. One rule follows for the user:
-/// **a chain begins with a parameter of this package**, as in
+/// \cgal's named parameters are members of one class, which cannot be extended from outside. The
+/// class `Conformal_named_parameters` below therefore derives from it and knows both lists. A chain
+/// takes the parameters of both lists, in any order, if it begins with a parameter of this package,
+/// or with any one of the namespace `CGAL::Conformal_equivalence::named_parameters`, where those of
+/// \cgal are repeated:
 /// \code
 /// CGAL::parameters::gradient_tolerance(1e-10).vertex_point_map(vpm).number_of_iterations(50)
+/// CGAL::Conformal_equivalence::named_parameters::vertex_point_map(vpm).gradient_tolerance(1e-10)
 /// \endcode
-/// Packs that exist already are joined by `combine_named_parameters()`.
+/// A chain that begins in `CGAL::parameters` with one of \cgal's can hold these only ("has no member
+/// named ..." means that one of this package follows). Packs that exist already, of either kind, are
+/// joined by `combine_named_parameters()`.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_NAMED_PARAMETERS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_NAMED_PARAMETERS_H
@@ -112,30 +116,61 @@ template <typename T> T& unwrap(std::reference_wrapper<T>& r) { return r.get(); 
 /// \ingroup PkgConformalEquivalenceNamedParameters
 ///
 /// returns the pack of the parameters of `a` and of `b`; where both hold the
-/// same parameter, that of `b` counts. Works for packs of any length, in every
-/// supported version of \cgal, and the result can be continued as a chain.
+/// same parameter, that of `b` counts. Works for packs of any length, begun by \cgal's parameters or by those of this
+/// package, in every supported version of \cgal, and the result can be continued as a chain of both.
 template <typename NamedParameters1, typename NamedParameters2>
 auto combine_named_parameters(const NamedParameters1& a, const NamedParameters2& b)
 {
   return internal::append_named_parameters(a, static_cast<const typename NamedParameters2::base&>(b));
 }
 
+/// \ingroup PkgConformalEquivalenceNamedParameters
+///
+/// returns the pack of the parameters of `a`, `b`, and all others; where several hold the same parameter, that of the last one counts.
+template <typename NamedParameters1, typename NamedParameters2, typename NamedParameters3, typename... NamedParameters>
+auto combine_named_parameters(const NamedParameters1& a, const NamedParameters2& b, const NamedParameters3& c, const NamedParameters&... others)
+{
+  return combine_named_parameters(combine_named_parameters(a, b), c, others...);
+}
+
 } // namespace Conformal_equivalence
 
-namespace parameters {
-
 /// \cond SKIP_IN_MANUAL
-#define CGAL_add_named_parameter(X, Y, Z)                                           \
-  template <typename K>                                                             \
-  Conformal_equivalence::Conformal_named_parameters<K, internal_np::X> Z(const K& k) \
-  {                                                                                 \
-    return {k};                                                                     \
-  }
+
+#define CGAL_add_named_parameter(X, Y, Z)                                                                \
+  template <typename K>                                                                                  \
+  Conformal_equivalence::Conformal_named_parameters<K, CGAL::internal_np::X> Z(const K& k) { return {k}; }
+
+namespace parameters {
 #include <CGAL/Conformal_equivalence/internal/parameters_interface.h>
+} // namespace parameters
+
+// The same functions again, and those of CGAL with them, that begin a chain of both.
+namespace Conformal_equivalence {
+namespace named_parameters {
+
+using CGAL::parameters::default_values;
+#define CGAL_add_named_parameter_with_compatibility(X, Y, Z) CGAL_add_named_parameter(X, Y, Z)
+#define CGAL_add_extra_named_parameter_with_compatibility(X, Y, Z) CGAL_add_named_parameter(X, Y, Z)
+#define CGAL_add_named_parameter_with_compatibility_cref_only(X, Y, Z)                                   \
+  template <typename K>                                                                                  \
+  Conformal_named_parameters<std::reference_wrapper<const K>, CGAL::internal_np::X> Z(const K& k) { return {std::cref(k)}; }
+#define CGAL_add_named_parameter_with_compatibility_ref_only(X, Y, Z)                                    \
+  template <typename K>                                                                                  \
+  Conformal_named_parameters<std::reference_wrapper<K>, CGAL::internal_np::X> Z(K& k) { return {std::ref(k)}; }
+#include <CGAL/STL_Extension/internal/parameters_interface.h>
+#include <CGAL/Conformal_equivalence/internal/parameters_interface.h>
+#undef CGAL_add_named_parameter_with_compatibility
+#undef CGAL_add_extra_named_parameter_with_compatibility
+#undef CGAL_add_named_parameter_with_compatibility_cref_only
+#undef CGAL_add_named_parameter_with_compatibility_ref_only
+
+} // namespace named_parameters
+} // namespace Conformal_equivalence
+
 #undef CGAL_add_named_parameter
 /// \endcond
 
-} // namespace parameters
 } // namespace CGAL
 
 #endif // CGAL_CONFORMAL_EQUIVALENCE_NAMED_PARAMETERS_H

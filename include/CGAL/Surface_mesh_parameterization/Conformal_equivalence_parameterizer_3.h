@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/make_seam_mesh.h>
 
 #include <CGAL/Default.h>
@@ -85,6 +86,15 @@ faces_of_component(typename boost::graph_traits<TriangleMesh>::face_descriptor f
   return component;
 }
 
+// The face at a halfedge of the border; the null face if there is none.
+template <typename TriangleMesh>
+typename boost::graph_traits<TriangleMesh>::face_descriptor
+face_at_border(typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd, const TriangleMesh& tm)
+{
+  typedef boost::graph_traits<TriangleMesh> Graph_traits;
+  return bhd == Graph_traits::null_halfedge() ? Graph_traits::null_face() : face(opposite(bhd, tm), tm);
+}
+
 } // namespace internal
 } // namespace Conformal_equivalence
 
@@ -106,8 +116,9 @@ namespace Surface_mesh_parameterization {
 /// border, u = 0 on it.
 ///
 /// `parameterize()` takes the parameterizer by value: everything that comes back, comes through
-/// the maps and the report given to the constructor. It has the precondition that the mesh is a valid polygon mesh, which a
-/// `Seam_mesh` is not if one seam edge is a border by itself.
+/// the maps and the report given to the constructor. This header overloads it for this parameterizer, without preconditions
+/// on the mesh: a mesh without a border, for which `Polygon_mesh_processing::longest_border()` has no halfedge, is refused
+/// like every other surface that is no disk.
 ///
 /// Do not confuse it with `Discrete_conformal_map_parameterizer_3`, which is the
 /// discretely harmonic map to a fixed border.
@@ -147,7 +158,7 @@ public:
   {}
 
   /// takes the named parameters of `Conformal_equivalence::flatten()`, with maps of the underlying mesh, which are kept
-  /// by value. (The parameters about cutting and charts are not read: the seam is that of the mesh.) And one more:
+  /// by value, but those about cutting, charts and refinements (the seam is that of the mesh). And one more:
   ///
   /// \cgalNamedParamsBegin
   ///   \cgalParamNBegin{seam_is_border}
@@ -167,14 +178,19 @@ public:
         if(bool(flattening.report))
           Conformal_equivalence::internal::write_metric(flattening, np);
         Conformal_equivalence::internal::write_report(flattening.report, np);
-      })
-  {}
+      }),
+      refuse_([np](const Report& report) { Conformal_equivalence::internal::write_report(report, np); })
+  {
+    static_assert(Conformal_equivalence::internal::Check_pack<Conformal_equivalence::internal::Parameters_of_parameterizer,
+                                                              Underlying_mesh, CGAL_NP_CLASS>::value, "parameters are refused");
+  }
 
   /// flattens the connected component of `bhd`. The maps are written iff `OK` is returned. The index
   /// map is not used: the package has indices of its own.
   ///
   /// \param tm a triangle mesh
-  /// \param bhd a halfedge of the border of a topological disk, which may be one that is cut open
+  /// \param bhd a halfedge of the border of a topological disk, which may be one that is cut open; `null_halfedge()` is refused
+  ///        (`WRONG_TOPOLOGY`, with the topology of the mesh)
   /// \param uvmap receives the coordinates of the vertices of the component
   /// \param vpmap receives `true` at every vertex of the component
   ///
@@ -189,7 +205,9 @@ public:
                           VertexParameterizedMap vpmap)
   {
     typedef typename boost::property_traits<VertexUVMap>::value_type Point_2;
-    const face_descriptor f = face(opposite(bhd, tm), tm);
+    const face_descriptor f = Conformal_equivalence::internal::face_at_border(bhd, tm);
+    if(f == boost::graph_traits<Triangle_mesh>::null_face())
+      return refuse_without_border(tm);
     Flattening flattening(seam_is_border_ ? import_cut_open(f, tm) : import_whole(f, tm));
     const std::uint32_t index_of_f = flattening.mesh.index_of_face(f);
     flatten_(flattening, seam(flattening.mesh, tm), index_of_f);
@@ -212,6 +230,15 @@ public:
 private:
   typedef Conformal_equivalence::internal::Flattening<Underlying_mesh> Flattening;
   typedef Conformal_equivalence::Imported_mesh<Underlying_mesh> Imported_mesh;
+
+  Error_code refuse_without_border(const Triangle_mesh& tm) const
+  {
+    Report report = Conformal_equivalence::internal::import_report(Imported_mesh(Seams::underlying_mesh(tm)));
+    if(bool(report))
+      report.status = Conformal_equivalence::Status::WRONG_TOPOLOGY;
+    refuse_(report);
+    return Conformal_equivalence::to_error_code(report.status);
+  }
 
   static Imported_mesh import_whole(face_descriptor f, const Triangle_mesh& tm)
   {
@@ -244,7 +271,27 @@ private:
 
   // the maps of the named parameters, whose types the class does not know
   std::function<void(Flattening&, Conformal_equivalence::Cut_graph, std::uint32_t)> flatten_;
+  std::function<void(const Report&)> refuse_;
 };
+
+/// \ingroup PkgConformalEquivalenceDoors
+///
+/// does what \cgal's `parameterize()` does with this parameterizer, but for its preconditions: a halfedge that is null, as
+/// `Polygon_mesh_processing::longest_border()` returns it for a closed mesh, is an error like others.
+///
+/// \param mesh a triangle mesh
+/// \param parameterizer says what the conditions are, and where results other than coordinates go
+/// \param bhd a halfedge of the border
+/// \param uvmap receives the coordinates of the vertices of the component of `bhd`
+///
+/// \return what `Conformal_equivalence_parameterizer_3::parameterize()` returns
+template <typename Mesh, typename TriangleMesh, typename SolverTraits, typename HD, typename VertexUVMap>
+Error_code parameterize(Mesh& mesh, Conformal_equivalence_parameterizer_3<TriangleMesh, SolverTraits> parameterizer, HD bhd, VertexUVMap uvmap)
+{
+  const TriangleMesh& tm = mesh;
+  const auto is_parameterized = get(CGAL::dynamic_vertex_property_t<bool>(), tm);
+  return parameterizer.parameterize(tm, bhd, uvmap, boost::dummy_property_map(), is_parameterized);
+}
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
