@@ -170,6 +170,18 @@ if("test" IN_LIST _folders)
   add_test(NAME check_style COMMAND "${PROJECT_SOURCE_DIR}/scripts/check_style")
   set_tests_properties(check_style PROPERTIES LABELS style)
 
+  # Calls that must not compile, and what the compiler says to them.
+  if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND TARGET test_signatures)
+    add_test(NAME refused_parameters
+      COMMAND ${CMAKE_COMMAND}
+        "-DCOMPILER=${CMAKE_CXX_COMPILER}"
+        "-DFLAGS=${CMAKE_CXX_FLAGS}"
+        "-DINCLUDES=$<JOIN:$<TARGET_PROPERTY:test_signatures,INCLUDE_DIRECTORIES>,|>"
+        "-DDEFINITIONS=$<JOIN:$<TARGET_PROPERTY:test_signatures,COMPILE_DEFINITIONS>,|>"
+        -P "${PROJECT_SOURCE_DIR}/test/Conformal_equivalence/refused_parameters/run.cmake")
+    set_tests_properties(refused_parameters PROPERTIES LABELS test TIMEOUT 600)
+  endif()
+
   # Installs, and builds an application that knows nothing but the installed package.
   add_test(NAME installation
     COMMAND ${CMAKE_COMMAND}

@@ -50,6 +50,11 @@ bool measure(const std::string& name, const Mesh& mesh, const Parameterizer& par
 {
   Mesh sm(mesh);
   const halfedge_descriptor bhd = PMP::longest_border(sm).first;
+  if(bhd == boost::graph_traits<Mesh>::null_halfedge())
+  {
+    std::cerr << "The mesh has no border" << std::endl;
+    return false;
+  }
   auto uv = sm.add_property_map<vertex_descriptor, Point_2>("v:uv").first;
   const SMP::Error_code error = SMP::parameterize(sm, parameterizer, bhd, uv);
   if(error != SMP::OK)

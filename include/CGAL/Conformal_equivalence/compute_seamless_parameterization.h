@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/rectification.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -315,6 +316,8 @@ Flattening_report<TriangleMesh> compute_seamless_parameterization(const Triangle
                                                                   HalfedgeUVMap uv,
                                                                   const NamedParameters& np = parameters::default_values())
 {
+  static_assert(internal::Check_halfedge_map<HalfedgeUVMap, TriangleMesh>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_seamless_parameterization, TriangleMesh, NamedParameters>::value);
   internal::Seamless_parameterization<TriangleMesh, NamedParameters> seamless(tm, np);
   seamless();
   const Flattening_report<TriangleMesh>& report = seamless.flattening.report;

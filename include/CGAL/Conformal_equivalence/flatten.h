@@ -22,6 +22,7 @@
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -696,6 +697,8 @@ Flattening_report<TriangleMesh> flatten(const TriangleMesh& tm,
                                         HalfedgeUVMap uv,
                                         const NamedParameters& np = parameters::default_values())
 {
+  static_assert(internal::Check_halfedge_map<HalfedgeUVMap, TriangleMesh>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_flatten, TriangleMesh, NamedParameters>::value);
   const internal::Stopwatch stopwatch;
   internal::Flattening<TriangleMesh, NT> flattening{internal::import_charts<NT>(tm, np)};
   flattening.report.statistics.seconds.import = stopwatch.seconds();

@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/make_refined_mesh.h>
 #include <CGAL/Conformal_equivalence/triangulate_refinement.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
@@ -78,6 +79,9 @@ Flattening_report<TriangleMesh> flatten_refined(const TriangleMesh& tm,
                                                 const NamedParameters& np = parameters::default_values(),
                                                 const NamedParametersRefined& np_refined = parameters::default_values())
 {
+  static_assert(internal::Check_halfedge_map<HalfedgeUVMap, RefinedMesh>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_flatten, TriangleMesh, NamedParameters>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_refined_mesh, RefinedMesh, NamedParametersRefined>::value);
   using parameters::get_parameter;
   using parameters::is_default_parameter;
   const internal::Stopwatch stopwatch;

@@ -21,6 +21,7 @@
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
@@ -407,7 +408,7 @@ void write_repaired_maps(const Repaired_flattening<TriangleMesh>& flattening, co
 ///        `vertex_point_map`, `edge_length_map`, `border_angle_map`, `cone_angle_map`, `vertex_is_constrained_map`,
 ///        `prescribed_log_scale_factor_map`, `initial_log_scale_factor_map`, `gradient_tolerance`, `number_of_iterations`,
 ///        `newton_strategy`, `sparse_linear_solver`, `layout_frame`, `visitor`, `flattening_report`; `maximum_number_of_changes`
-///        as in `repair_locally()`; and the ones listed below
+///        as in `repair_locally()`; and the ones listed below. The others of `flatten()` are not read.
 /// \param np_repaired an optional sequence of \ref bgl_namedparameters "Named Parameters" with maps of `repaired`, which are
 ///        written: `vertex_point_map`, as in `make_repaired_mesh()`; `log_scale_factor_map`, `projective_weight_map` and
 ///        `edge_is_seam_map`, as in `flatten()`
@@ -442,6 +443,9 @@ flatten_repaired(const TriangleMesh& tm,
                  const NamedParameters& np = parameters::default_values(),
                  const NamedParametersRepaired& np_repaired = parameters::default_values())
 {
+  static_assert(internal::Check_halfedge_map<HalfedgeUVMap, RepairedMesh>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_flatten_repaired, TriangleMesh, NamedParameters>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_repaired_mesh, RepairedMesh, NamedParametersRepaired>::value);
   Repair_report<TriangleMesh, RepairedMesh> report;
   internal::Repaired_flattening<TriangleMesh> flattening{Imported_mesh<TriangleMesh>(tm)};
   flattening.run(np, report);

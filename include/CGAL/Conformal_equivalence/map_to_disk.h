@@ -21,6 +21,7 @@
 #include <CGAL/Conformal_equivalence/triangulate_refinement.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
@@ -648,6 +649,8 @@ Flattening_report<TriangleMesh> map_to_disk(const TriangleMesh& tm,
                                             VertexUVMap disk_map,
                                             const NamedParameters& np = parameters::default_values())
 {
+  static_assert(internal::Check_vertex_map<VertexUVMap, TriangleMesh>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_map_to_disk, TriangleMesh, NamedParameters>::value);
   constexpr bool is_refined = !parameters::is_default_parameter<NamedParameters, internal_np::conformal_common_refinement_t>::value;
   internal::Disk_mapping<TriangleMesh, NT> mapping(tm);
   mapping.run(np, is_refined, false);
@@ -687,6 +690,9 @@ Flattening_report<TriangleMesh> map_to_disk_refined(const TriangleMesh& tm,
                                                     const NamedParameters& np = parameters::default_values(),
                                                     const NamedParametersRefined& np_refined = parameters::default_values())
 {
+  static_assert(internal::Check_halfedge_map<HalfedgeUVMap, RefinedMesh>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_map_to_disk, TriangleMesh, NamedParameters>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_refined_mesh, RefinedMesh, NamedParametersRefined>::value);
   internal::Disk_mapping<TriangleMesh, double> mapping(tm);
   mapping.run(np, true, true);
   if(bool(mapping.report) && make_refined_mesh(mapping.mesh, mapping.refinement, refined, uv, np, np_refined).faces.empty())

@@ -21,6 +21,7 @@
 #include <CGAL/Conformal_equivalence/triangulate_refinement.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/ideal_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Inscribed_mapping.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
@@ -450,6 +451,8 @@ Flattening_report<TriangleMesh> map_to_sphere(const TriangleMesh& tm,
                                               VertexPointMap sphere_map,
                                               const NamedParameters& np = parameters::default_values())
 {
+  static_assert(internal::Check_vertex_map<VertexPointMap, TriangleMesh>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_map_to_sphere, TriangleMesh, NamedParameters>::value);
   constexpr bool is_refined = !parameters::is_default_parameter<NamedParameters, internal_np::conformal_spherical_refinement_t>::value;
   internal::Sphere_mapping<TriangleMesh, NT> mapping(tm);
   mapping.run(np, is_refined);
@@ -508,6 +511,9 @@ Flattening_report<TriangleMesh> map_to_sphere_refined(const TriangleMesh& tm,
                                                       const NamedParameters& np = parameters::default_values(),
                                                       const NamedParametersRefined& np_refined = parameters::default_values())
 {
+  static_assert(internal::Check_vertex_map<VertexPointMap, RefinedMesh>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_map_to_sphere, TriangleMesh, NamedParameters>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_refined_sphere, RefinedMesh, NamedParametersRefined>::value);
   using parameters::choose_parameter;
   using parameters::get_parameter;
   using parameters::is_default_parameter;

@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_placer.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/report_cones.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
@@ -153,6 +154,8 @@ Flattening_report<TriangleMesh> place_cones(const TriangleMesh& tm,
                                             VertexAngleMap cone_angle_map,
                                             const NamedParameters& np = parameters::default_values())
 {
+  static_assert(internal::Check_vertex_map<VertexAngleMap, TriangleMesh>::value);
+  static_assert(internal::Check_pack<internal::Parameters_of_place_cones, TriangleMesh, NamedParameters>::value);
   using parameters::get_parameter;
   using parameters::is_default_parameter;
   const internal::Stopwatch stopwatch;

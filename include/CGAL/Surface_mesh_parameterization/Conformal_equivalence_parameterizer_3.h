@@ -182,7 +182,7 @@ public:
       refuse_([np](const Report& report) { Conformal_equivalence::internal::write_report(report, np); })
   {
     static_assert(Conformal_equivalence::internal::Check_pack<Conformal_equivalence::internal::Parameters_of_parameterizer,
-                                                              Underlying_mesh, CGAL_NP_CLASS>::value, "parameters are refused");
+                                                              Underlying_mesh, CGAL_NP_CLASS>::value);
   }
 
   /// flattens the connected component of `bhd`. The maps are written iff `OK` is returned. The index

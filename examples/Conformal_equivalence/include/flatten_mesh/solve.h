@@ -150,10 +150,10 @@ Report flatten_with(const NamedParameters& common, const Options& options, const
 {
   Result& given = results.given;
   if(options.target != Target::PLANE)
-    return inscribe(options, results, common);
+    return inscribe(options, results, common.projective_weight_map(given.weight));
   const auto in_the_plane = common.border_edges(options.keep_border ? CE::Border_edges::KEPT : CE::Border_edges::FLIPPABLE);
   if(options.seamless)
-    return flatten_seamlessly(options, conditions, results, in_the_plane);
+    return flatten_seamlessly(options, conditions, results, in_the_plane.projective_weight_map(given.weight));
   Report placement;
   if(options.places_cones)
   {
@@ -166,6 +166,7 @@ Report flatten_with(const NamedParameters& common, const Options& options, const
   }
   const auto np =
     in_the_plane
+          .projective_weight_map(given.weight)
           .border_angle_map(conditions.border_angle)
           .cone_angle_map(conditions.cone_angle)
           .vertex_is_constrained_map(conditions.is_constrained)
@@ -207,7 +208,6 @@ inline Report flatten(const Options& options, const Conditions& conditions, Resu
   Progress_visitor visitor(progress);
   const auto common =
     CGAL::parameters::log_scale_factor_map(results.given.u)
-                     .projective_weight_map(results.given.weight)
                      .mollification(options.mollification)
                      .gradient_tolerance(options.precision_in_bits > bits_of_double ? 0. : options.tolerance)
                      .number_of_iterations(options.maximum_number_of_iterations)

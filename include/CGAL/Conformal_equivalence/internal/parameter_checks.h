@@ -39,6 +39,8 @@ constexpr bool takes_keys()
     return false;
 }
 
+// What follows is instantiated in static_assert(Check_...::value), which never fails itself: what is refused is said before.
+
 // Refuses what is no map of the halfedges of a mesh, when it is instantiated.
 template <typename HalfedgeMap, typename TriangleMesh>
 struct Check_halfedge_map
@@ -48,6 +50,7 @@ struct Check_halfedge_map
   static_assert(!Is_property_map<HalfedgeMap>::value
                 || takes_keys<HalfedgeMap, typename boost::graph_traits<TriangleMesh>::halfedge_descriptor>(),
                 "coordinates are written by corner: the keys of the property map must be the halfedges of the mesh, not its vertices");
+  static constexpr bool value = true;
 };
 
 // Refuses what is no map of the vertices of a mesh, when it is instantiated.
@@ -59,6 +62,7 @@ struct Check_vertex_map
   static_assert(!Is_property_map<VertexMap>::value
                 || takes_keys<VertexMap, typename boost::graph_traits<TriangleMesh>::vertex_descriptor>(),
                 "results are written by vertex: the keys of the property map must be the vertices of the mesh");
+  static constexpr bool value = true;
 };
 
 // ---- Named parameters

@@ -46,11 +46,9 @@ typedef Parameters_of<Layout_parameters, Cut_parameters,
 
 typedef Parameters_of<Layout_parameters, Parameter_list<internal_np::conformal_seam_is_border_t> > Parameters_of_parameterizer;
 
-typedef Parameters_of<Length_parameters, Condition_parameters,
-                      Parameter_list<internal_np::conformal_gradient_tolerance_t, internal_np::conformal_newton_strategy_t,
-                                     internal_np::conformal_number_of_changes_t, internal_np::conformal_edge_is_seam_t,
-                                     internal_np::conformal_layout_frame_t,
-                                     internal_np::conformal_report_t> > Parameters_of_flatten_repaired;
+// It takes a pack that was made for flatten(): what this writes for `tm`, and what it says of flips, is of no use there.
+typedef Parameters_of<Parameters_of_flatten,
+                      Parameter_list<internal_np::conformal_number_of_changes_t> > Parameters_of_flatten_repaired;
 
 typedef Parameters_of<Common_parameters,
                       Parameter_list<internal_np::conformal_vertex_at_infinity_t, internal_np::conformal_moebius_weights_t,
