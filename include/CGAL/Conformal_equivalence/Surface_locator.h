@@ -288,8 +288,7 @@ private:
 
   const Intrinsic_triangulation<NT>& flat() const { return metric_->triangulation; }
 
-  template <typename Frame>
-  void prepare(const Cut_graph& cut, std::uint64_t maximum_number_of_crossings, const Frame& frame)
+  void prepare(const Cut_graph& cut, std::uint64_t maximum_number_of_crossings, const internal::Any_frame& frame)
   {
     if(metric_->is_retriangulated() && !read_flips(maximum_number_of_crossings))
     {

@@ -2,22 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 /// \file boundary_conditions.h
-/// Conditions on a mesh: how borders and cones are described by property maps, and
-/// functions that fill such maps (sections 4.1, 4.2 and 5 of Springborn, Schroeder and
-/// Pinkall, 2008).
+/// Functions that fill the property maps by which conditions on a mesh are described (sections 4.1, 4.2 and 5 of Springborn, Schroeder and
+/// Pinkall, 2008); `read_conditions.h` says how they are described.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_BOUNDARY_CONDITIONS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_BOUNDARY_CONDITIONS_H
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
-#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Rectangle_corners.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/read_conditions.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -28,118 +26,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <functional>
-#include <type_traits>
-#include <vector>
 
 namespace CGAL {
 namespace Conformal_equivalence {
-
-namespace internal {
-
-// The angle that the user gave, in whatever precision: multiples of pi / 2520 are recognized in its own.
-template <typename NT, typename Given>
-Exact_angle<NT> given_angle(const Given& radians)
-{
-  if constexpr(std::is_arithmetic<Given>::value && !std::is_same<NT, double>::value)
-  {
-    const Exact_angle<double> rounded(static_cast<double>(radians));
-    Exact_angle<NT> result;
-    result.units = rounded.units;
-    result.rest = NT(rounded.rest);
-    return result;
-  }
-  else
-    return Exact_angle<NT>(NT(radians));
-}
-
-} // namespace internal
-
-/// \ingroup PkgConformalEquivalenceSolver
-///
-/// reads the conditions at the vertices of an imported mesh from property maps.
-///
-/// \param mesh the mesh, with status `OK`
-/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
-/// \param missing receives the unconstrained border vertices for which there is no angle, because
-///        `vertex_is_constrained_map` is given and `border_angle_map` is not
-///
-/// \cgalNamedParamsBegin
-///   \cgalParamNBegin{border_angle_map}
-///     \cgalParamDescription{the angle sums at border vertices, in radians: pi is straight}
-///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to
-///       `double`}
-///     \cgalParamDefault{none: the border is natural, it keeps its lengths}
-///   \cgalParamNEnd
-///   \cgalParamNBegin{cone_angle_map}
-///     \cgalParamDescription{the angle sums at interior vertices, in radians}
-///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to
-///       `double`}
-///     \cgalParamDefault{2 pi everywhere}
-///   \cgalParamNEnd
-///   \cgalParamNBegin{vertex_is_constrained_map}
-///     \cgalParamDescription{`true` where the logarithmic scale factor u is fixed, and the angle free}
-///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type `bool`}
-///     \cgalParamDefault{`true` at border vertices if `border_angle_map` is absent, `false` everywhere otherwise}
-///     \cgalParamExtra{If it is given, it alone decides.}
-///   \cgalParamNEnd
-///   \cgalParamNBegin{prescribed_log_scale_factor_map}
-///     \cgalParamDescription{u where it is fixed}
-///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to
-///       `double`}
-///     \cgalParamDefault{0 everywhere}
-///   \cgalParamNEnd
-/// \cgalNamedParamsEnd
-///
-/// \return the conditions. Linear time.
-template <typename TriangleMesh, typename NT, typename NamedParameters = parameters::Default_named_parameters>
-Conformal_conditions<NT> read_conditions(const Imported_mesh<TriangleMesh, NT>& mesh,
-                                         std::vector<std::uint32_t>& missing,
-                                         const NamedParameters& np = parameters::default_values())
-{
-  using parameters::get_parameter;
-  using parameters::is_default_parameter;
-  constexpr bool has_border_angles = !is_default_parameter<NamedParameters, internal_np::conformal_border_angle_t>::value;
-  constexpr bool has_cone_angles = !is_default_parameter<NamedParameters, internal_np::conformal_cone_angle_t>::value;
-  constexpr bool has_constraints = !is_default_parameter<NamedParameters, internal_np::vertex_is_constrained_t>::value;
-  constexpr bool has_prescribed_u = !is_default_parameter<NamedParameters, internal_np::conformal_prescribed_u_t>::value;
-
-  const Intrinsic_triangulation<NT>& t = mesh.triangulation;
-  Conformal_conditions<NT> conditions(t);
-  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
-  {
-    if(t.is_isolated_vertex(v))
-      continue;
-    const auto vd = mesh.vertex(v);
-    const bool is_border = t.is_border_vertex(v);
-    bool is_fixed = is_border && !has_border_angles;
-    if constexpr(has_constraints)
-      is_fixed = get(get_parameter(np, internal_np::vertex_is_constrained), vd);
-
-    if(is_fixed)
-    {
-      NT u(0);
-      if constexpr(has_prescribed_u)
-        u = NT(get(get_parameter(np, internal_np::conformal_prescribed_u), vd));
-      conditions.fix_log_scale_factor(v, u);
-    }
-    else if(is_border)
-    {
-      if constexpr(has_border_angles)
-        conditions.prescribe_angle_sum(v, internal::given_angle<NT>(get(get_parameter(np, internal_np::conformal_border_angle), vd)));
-      else
-        missing.push_back(v);
-    }
-    else
-    {
-      if constexpr(has_cone_angles)
-        conditions.prescribe_angle_sum(v, internal::given_angle<NT>(get(get_parameter(np, internal_np::conformal_cone_angle), vd)));
-      else
-        conditions.prescribe_angle_sum(v, Exact_angle<NT>::pi_times(2));
-    }
-  }
-  return conditions;
-}
 
 /// \ingroup PkgConformalEquivalenceSolver
 ///

@@ -16,18 +16,19 @@
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
-#include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/compute_common_refinement.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Cell_verdict.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
 #include <CGAL/Conformal_equivalence/projective_interpolation.h>
+#include <CGAL/Conformal_equivalence/read_conditions.h>
 
 #include <CGAL/boost/graph/iterator.h>
 
@@ -173,16 +174,7 @@ struct Flattening
   }
 
   // Names the triangles with parts that are not exactly positive, as rounded.
-  void judge(const Common_refinement<NT>& parts)
-  {
-    std::vector<Index> flipped;
-    for(const std::vector<Index>* faces : {&parts.flipped_faces, &parts.rounded_faces})
-      for(Index f : *faces)
-        flipped.push_back(parts.input_face[f]);
-    std::sort(flipped.begin(), flipped.end());
-    flipped.erase(std::unique(flipped.begin(), flipped.end()), flipped.end());
-    refuse_flipped(flipped);
-  }
+  void judge(const Common_refinement<NT>& parts) { refuse_flipped(input_faces_lost(parts)); }
 
   // The same where the cut is given, and only the piece to which `face` belongs is laid out. It must be a disk, with all cones
   // on its border; `no_disk` says so if not.

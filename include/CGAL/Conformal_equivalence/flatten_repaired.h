@@ -17,7 +17,6 @@
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/flatten.h>

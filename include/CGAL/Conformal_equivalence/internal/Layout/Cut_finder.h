@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/internal/Layout/Shortest_path_forest.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/cut_open.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/triangulation_graph.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <CGAL/assertions.h>
 
@@ -353,6 +354,10 @@ Cut_graph find_cut(const Intrinsic_triangulation<NT>& input, const std::vector<s
   cut.loops = std::move(finder.loops);
   return std::move(cut);
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Cut_graph find_cut(const Intrinsic_triangulation<double>&, const std::vector<std::uint32_t>&, Seam_conditions<double>);
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -129,7 +129,7 @@ private:
   {
     if(path.is_edge)
       return {metric_.wide_scaled_length(path.first), Wide(0)};
-    Unfolded_strip<NT> strip(metric_, path.first);
+    Unfolded_strip<NT> strip(metric_, path.first, true);
     for(Index c : path.crossed)
       strip.cross(c);
     return strip.apex();

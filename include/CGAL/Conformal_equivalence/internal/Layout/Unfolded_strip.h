@@ -44,8 +44,11 @@ public:
   typedef typename Metric::Wide_number Wide;
   typedef Complex_number<Wide> Complex;
 
-  Unfolded_strip(const Metric& metric, Index h)
-    : metric_(metric), t_(metric.triangulation), h_(h), origin_{Wide(0), Wide(0)}, direction_{Wide(1), Wide(0)}
+  // A side that is crossed has its target where it was laid out before, or, with `measures_sides`, where its length leads from its origin:
+  // the same but for rounding, of which a layout shows the last digits where coordinates vanish.
+  Unfolded_strip(const Metric& metric, Index h, bool measures_sides = false)
+    : metric_(metric), t_(metric.triangulation), measures_sides_(measures_sides),
+      h_(h), origin_{Wide(0), Wide(0)}, direction_{Wide(1), Wide(0)}
   {
     lay_out_apex();
   }
@@ -65,14 +68,16 @@ public:
   // Leaves the last triangle across `side`, and lays out the one behind it.
   void cross(Index side)
   {
+    const std::array<Complex, 2> end = ends(side);
     if(side == t_.next(h_))
     {
       const Complex at_target = turn_at_origin(metric_, side);
       direction_ = direction_ * Complex{at_target.re, -at_target.im};
-      origin_ = apex_;
     }
     else
       direction_ = direction_ * turn_at_origin(metric_, h_);
+    const Wide l = metric_.wide_scaled_length(side);
+    origin_ = measures_sides_ ? Complex{end[0].re - l * direction_.re, end[0].im - l * direction_.im} : end[1];
     h_ = t_.twin(side);
     lay_out_apex();
   }
@@ -87,7 +92,8 @@ private:
 
   const Metric& metric_;
   const Intrinsic_triangulation<NT>& t_;
-  Index h_;                          // the side by which the last triangle was entered, which is on its left
+  const bool measures_sides_;
+  Index h_;                           // the side by which the last triangle was entered, which is on its left
   Complex origin_, direction_, apex_; // where h_ begins, and its direction; the third corner
 };
 

@@ -18,9 +18,11 @@
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -28,10 +30,13 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// Which pieces are to be laid out.
+typedef std::function<bool(const Piece&)> Is_wanted;
+
 // Lays out the given pieces only.
-template <typename NT, typename Developed, typename Frame>
+template <typename NT, typename Developed>
 Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Cut_graph& cut, const Wedges& wedges,
-                          const std::vector<Piece>& pieces, const Frame& frame, Developed development)
+                          const std::vector<Piece>& pieces, const Any_frame& frame, Developed development)
 {
   Layout<NT> layout;
   for(const Piece& piece : pieces)
@@ -43,9 +48,9 @@ Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Cut_gr
   return layout;
 }
 
-template <typename NT, typename Frame>
+template <typename NT>
 Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
-                          const Wedges& wedges, const std::vector<Piece>& pieces, const Frame& frame)
+                          const Wedges& wedges, const std::vector<Piece>& pieces, const Any_frame& frame)
 {
   if(!metric.is_retriangulated())
     return lay_out_pieces(input, cut, wedges, pieces, frame, Development<NT>(metric, cut, wedges));
@@ -59,9 +64,9 @@ Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Confor
   return layout;
 }
 
-template <typename NT, typename Frame, typename Is_wanted>
+template <typename NT>
 Layout<NT> lay_out_whole(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
-                         const Frame& frame, Is_wanted is_wanted)
+                         const Any_frame& frame, const Is_wanted& is_wanted)
 {
   const Wedges wedges = find_wedges(input, cut);
   std::vector<Piece> pieces = find_pieces(input, cut, wedges);
@@ -70,9 +75,9 @@ Layout<NT> lay_out_whole(const Intrinsic_triangulation<NT>& input, const Conform
 }
 
 // Lays out the pieces for which is_wanted(piece). Of a metric of the double, cut along the border, only those of the surface itself.
-template <typename NT, typename Frame, typename Is_wanted>
+template <typename NT>
 Layout<NT> lay_out(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
-                   const Frame& frame, Is_wanted is_wanted)
+                   const Any_frame& frame, const Is_wanted& is_wanted)
 {
   if(!metric.is_doubled)
     return lay_out_whole(input, metric, cut, frame, is_wanted);
@@ -83,6 +88,11 @@ Layout<NT> lay_out(const Intrinsic_triangulation<NT>& input, const Conformal_met
   layout.straight_lengths.resize(input.number_of_edges());
   return layout;
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Layout<double> lay_out(const Intrinsic_triangulation<double>&, const Conformal_metric<double>&, const Cut_graph&,
+                                       const Any_frame&, const Is_wanted&);
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -28,6 +28,17 @@ namespace internal {
 
 typedef std::array<double, 2> Double_point;
 
+// The value of the named parameter `layout_frame`, of whichever of its two types.
+struct Any_frame
+{
+  bool is_pinned;
+  Layout_frame frame;                  // unless it is pinned
+  Pinned_frame<std::uint32_t> pinned;
+
+  Any_frame(Layout_frame f) : is_pinned(false), frame(f), pinned() {}
+  Any_frame(const Pinned_frame<std::uint32_t>& p) : is_pinned(true), frame(Layout_frame::CANONICAL), pinned(p) {}
+};
+
 template <typename Wide>
 Double_point to_double_point(const Complex_number<Wide>& z)
 {
@@ -341,6 +352,14 @@ NT move_to_frame(const Intrinsic_triangulation<NT>& t, const std::vector<std::ui
       z = {z.re + Wide(frame.first_point[0]), z.im + Wide(frame.first_point[1])};
     }
   return static_cast<NT>(sqrt(Wide(a.re * a.re + a.im * a.im)));
+}
+
+template <typename NT, typename Wide>
+NT move_to_frame(const Intrinsic_triangulation<NT>& t, const std::vector<std::uint32_t>& wedge,
+                 const std::vector<Piece>& pieces, const Any_frame& frame, std::vector<Complex_number<Wide> >& position)
+{
+  return frame.is_pinned ? move_to_frame(t, wedge, pieces, frame.pinned, position)
+                         : move_to_frame(t, wedge, pieces, frame.frame, position);
 }
 
 } // namespace internal

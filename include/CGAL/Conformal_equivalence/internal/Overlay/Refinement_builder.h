@@ -11,12 +11,14 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/layout_frames.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Cell_verdict.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Overlay.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/overlay_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/normal_coordinates.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <array>
 #include <cstddef>
@@ -45,8 +47,7 @@ public:
     : input_(input), metric_(metric), cut_(cut), size_(size)
   {}
 
-  template <typename Frame>
-  Common_refinement<NT> operator()(std::uint64_t maximum_number_of_crossings, const Frame& frame)
+  Common_refinement<NT> operator()(std::uint64_t maximum_number_of_crossings, const Any_frame& frame)
   {
     const Normal_coordinates record = replay_flips(input_, metric_.flips);
     result_.amount = static_cast<double>(record.total_crossings());
@@ -158,9 +159,9 @@ private:
 };
 
 // The whole way, for a metric of the surface given or of its double.
-template <typename NT, typename Frame>
+template <typename NT>
 Common_refinement<NT> build_refinement(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
-                                       std::uint64_t maximum_number_of_crossings, const Frame& frame)
+                                       std::uint64_t maximum_number_of_crossings, const Any_frame& frame)
 {
   const Surface_size size = { input.number_of_vertices(), input.number_of_edges(), input.number_of_faces() };
   Common_refinement<NT> nothing;
@@ -182,6 +183,11 @@ Common_refinement<NT> build_refinement(const Intrinsic_triangulation<NT>& input,
   }
   return nothing;
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Common_refinement<double> build_refinement(const Intrinsic_triangulation<double>&, const Conformal_metric<double>&,
+                                                           const Cut_graph&, std::uint64_t, const Any_frame&);
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

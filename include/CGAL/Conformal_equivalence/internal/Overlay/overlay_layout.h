@@ -44,9 +44,8 @@ public:
 
   // `input` is what the metric was made of by flips: the surface given, or its double.
   // Linear in its size and the number of crossings; what is kept is linear in its size.
-  template <typename Frame>
   Overlay_layout(const Intrinsic_triangulation<NT>& input, const Metric& metric, const Cut_graph& cut, const Surface_size& size,
-                 const Frame& frame)
+                 const Any_frame& frame)
     : input_(&input), wedges_(find_wedges(input, cut))
   {
     std::vector<Piece> pieces = find_pieces(input, cut, wedges_);
