@@ -25,10 +25,14 @@ configure_package_config_file(
   "${PROJECT_SOURCE_DIR}/cmake/Conformal_equivalenceConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/cmake/Conformal_equivalenceConfig.cmake"
   INSTALL_DESTINATION "${_package_dir}")
+set(_any_architecture ARCH_INDEPENDENT)
+if(TARGET Conformal_equivalence_compiled)
+  set(_any_architecture)
+endif()
 write_basic_package_version_file(
   "${PROJECT_BINARY_DIR}/cmake/Conformal_equivalenceConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion
-  ARCH_INDEPENDENT)
+  ${_any_architecture})
 install(FILES
   "${PROJECT_BINARY_DIR}/cmake/Conformal_equivalenceConfig.cmake"
   "${PROJECT_BINARY_DIR}/cmake/Conformal_equivalenceConfigVersion.cmake"

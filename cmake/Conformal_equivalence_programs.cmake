@@ -186,6 +186,7 @@ if("test" IN_LIST _folders)
   add_test(NAME installation
     COMMAND ${CMAKE_COMMAND}
       "-DBUILD_DIR=${PROJECT_BINARY_DIR}"
+      "-DWITH_LIBRARY=$<TARGET_EXISTS:Conformal_equivalence::compiled>"
       "-DAPPLICATION=${PROJECT_SOURCE_DIR}/test/Conformal_equivalence/installation"
       "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
       "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}"

@@ -46,6 +46,9 @@ int main()
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD
             << " and CHOLMOD"
 #endif
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED
+            << ", the engines compiled before"
+#endif
             << ": error code " << error << ", diagonal " << diagonal << ", off center by " << off_center << std::endl;
   return error == SMP::OK && std::fabs(diagonal - 2) < 1e-9 && off_center < 1e-9 ? 0 : 1;
 }

@@ -32,4 +32,8 @@ run("${CMAKE_COMMAND}" -S "${APPLICATION}" -B "${build}" -G "${CMAKE_GENERATOR}"
     "-DCMAKE_PREFIX_PATH=${prefix_path}"
     ${hints})
 run("${CMAKE_COMMAND}" --build "${build}")
-run("${build}/application")
+foreach(program application application_with_library)
+  if(program STREQUAL "application" OR WITH_LIBRARY)
+    run("${build}/${program}")
+  endif()
+endforeach()
