@@ -35,6 +35,7 @@ endforeach()
 if(CONFORMAL_EQUIVALENCE_PRECOMPILE_HEADERS)
   file(CONFIGURE OUTPUT generated/precompiled_headers.cpp CONTENT "" @ONLY)
   add_library(precompiled_headers OBJECT "${PROJECT_BINARY_DIR}/generated/precompiled_headers.cpp")
+  target_compile_definitions(precompiled_headers PRIVATE "CGAL_DATA_DIR=\"${CGAL_DATA_DIR}\"")
   target_precompile_headers(precompiled_headers PRIVATE
     <CGAL/Simple_cartesian.h> <CGAL/Surface_mesh.h> <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
     <CGAL/Eigen_solver_traits.h> <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -46,6 +47,9 @@ if(CONFORMAL_EQUIVALENCE_PRECOMPILE_HEADERS)
       get_target_property(_type ${_program} TYPE)
       if(_type MATCHES "^(EXECUTABLE|STATIC_LIBRARY|OBJECT_LIBRARY)$")
         target_precompile_headers(${_program} REUSE_FROM precompiled_headers)
+        if(NOT _type STREQUAL "EXECUTABLE") # those of CGAL's macro have it
+          target_compile_definitions(${_program} PRIVATE "CGAL_DATA_DIR=\"${CGAL_DATA_DIR}\"")
+        endif()
       endif()
     endforeach()
   endforeach()
