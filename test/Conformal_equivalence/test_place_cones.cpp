@@ -29,7 +29,7 @@ using namespace testing;
 namespace {
 
 typedef CE::Intrinsic_triangulation<double>                             Triangulation;
-typedef CE::internal::Cone_search<double, CE::Default_solver_traits>    Search;
+typedef CE::internal::Cone_search<double>                            Search;
 typedef CE::internal::Placement                                         Placement;
 
 // A disk with three bumps, one of them larger.
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(free_cones_have_u_zero_and_all_other_angles_are_flat)
   for(const Soup& soup : {bumps(16), arms(3), torus(20, 12)})
   {
     const Triangulation t = triangulation(soup);
-    Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::MAXIMUM_U);
+    Search search(t, only_component(t), CE::internal::make_factorization<CE::Default_solver_traits>(), CE::Cone_measure::MAXIMUM_U);
     BOOST_REQUIRE(search.factorize());
     Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
     for(Index i = 0; i < 4; ++i)
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(free_cones_have_u_zero_and_all_other_angles_are_flat)
 BOOST_AUTO_TEST_CASE(prescribed_angles_are_found_by_the_search_as_by_the_solver)
 {
   const Triangulation t = triangulation(bumps(16));
-  Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::MAXIMUM_U);
+  Search search(t, only_component(t), CE::internal::make_factorization<CE::Default_solver_traits>(), CE::Cone_measure::MAXIMUM_U);
   BOOST_REQUIRE(search.factorize());
   Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
   p.cones = {search.candidates()[40], search.candidates()[111]};
@@ -229,7 +229,7 @@ BOOST_AUTO_TEST_CASE(moves_are_foreseen_to_first_order)
       const double height = k == 0 ? 0.05 : 0.025;
       const Triangulation t = triangulation(grid(14, [&](double x, double y)
         { return height * std::sin(5 * x + 1) * std::cos(4 * y) + 0.3 * height * std::sin(11 * x * y); }));
-      Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::DIRICHLET_ENERGY);
+      Search search(t, only_component(t), CE::internal::make_factorization<CE::Default_solver_traits>(), CE::Cone_measure::DIRICHLET_ENERGY);
       BOOST_REQUIRE(search.factorize());
       Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
       p.cones = {search.candidates()[30], search.candidates()[100]};
@@ -264,7 +264,7 @@ BOOST_AUTO_TEST_CASE(moves_are_foreseen_as_they_are_computed_to_first_order)
           const bool is_sphere = only_component(t).euler_characteristic() > 0 && only_component(t).number_of_borders == 0;
           if(is_sphere && n_cones < 8)
             continue; // u would change by more than can be foreseen
-          Search search(t, only_component(t), CE::Default_solver_traits(), measure);
+          Search search(t, only_component(t), CE::internal::make_factorization<CE::Default_solver_traits>(), measure);
           BOOST_REQUIRE(search.factorize());
           Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
           for(std::size_t i = 0; i < n_cones; ++i)
@@ -298,7 +298,7 @@ BOOST_AUTO_TEST_CASE(moves_are_foreseen_as_they_are_computed_to_first_order)
 BOOST_AUTO_TEST_CASE(the_vertex_with_the_largest_u_is_found_whatever_u_is)
 {
   const Triangulation t = triangulation(bumps(6));
-  Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::MAXIMUM_U);
+  Search search(t, only_component(t), CE::internal::make_factorization<CE::Default_solver_traits>(), CE::Cone_measure::MAXIMUM_U);
   Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
   BOOST_TEST(p.measure == 0);
   const std::vector<Index>& inner = search.candidates();
@@ -324,7 +324,7 @@ BOOST_AUTO_TEST_CASE(cones_make_it_better_and_optimization_no_worse_than_the_gre
   for(const Soup& soup : {bumps(24), arms(3)})
   {
     const Triangulation t = triangulation(soup);
-    Search search(t, only_component(t), CE::Default_solver_traits(), CE::Cone_measure::MAXIMUM_U);
+    Search search(t, only_component(t), CE::internal::make_factorization<CE::Default_solver_traits>(), CE::Cone_measure::MAXIMUM_U);
     BOOST_REQUIRE(search.factorize());
     for(std::size_t n : {3u, 5u})
     {

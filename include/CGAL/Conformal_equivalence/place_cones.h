@@ -12,25 +12,29 @@
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
 #include <CGAL/Conformal_equivalence/Cone_placement.h>
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_placer.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/report_cones.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
+#include <CGAL/Conformal_equivalence/internal/solver_traits_of.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
-#include <CGAL/Conformal_equivalence/options.h>
 
 #include <CGAL/number_utils.h>
-
-#include <boost/graph/graph_traits.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <new>
+#include <type_traits>
 
 namespace CGAL {
 namespace Conformal_equivalence {
@@ -38,18 +42,68 @@ namespace Conformal_equivalence {
 namespace internal {
 
 template <typename NamedParameters>
-Cone_options cone_options(const NamedParameters& np)
+Cone_options read_cone_options(const NamedParameters& np)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
   Cone_options options;
-  options.number_of_cones = choose_parameter(get_parameter(np, internal_np::conformal_number_of_cones), std::size_t(0));
-  options.maximum_area_distortion = choose_parameter(get_parameter(np, internal_np::conformal_maximum_area_distortion), 0.);
-  options.maximum_u = choose_parameter(get_parameter(np, internal_np::conformal_maximum_u), 0.);
-  options.angle_quantum = choose_parameter(get_parameter(np, internal_np::conformal_angle_quantum), 0.);
-  options.measure = choose_parameter(get_parameter(np, internal_np::conformal_cone_measure), Cone_measure::MAXIMUM_U);
-  options.number_of_sweeps = choose_parameter(get_parameter(np, internal_np::conformal_number_of_sweeps), std::size_t(10));
+  options.number_of_cones = choose_parameter(get_parameter(np, internal_np::conformal_number_of_cones), options.number_of_cones);
+  options.maximum_area_distortion =
+    choose_parameter(get_parameter(np, internal_np::conformal_maximum_area_distortion), options.maximum_area_distortion);
+  options.maximum_u = choose_parameter(get_parameter(np, internal_np::conformal_maximum_u), options.maximum_u);
+  options.angle_quantum = choose_parameter(get_parameter(np, internal_np::conformal_angle_quantum), options.angle_quantum);
+  options.measure = choose_parameter(get_parameter(np, internal_np::conformal_cone_measure), options.measure);
+  options.number_of_sweeps = choose_parameter(get_parameter(np, internal_np::conformal_number_of_sweeps), options.number_of_sweeps);
   return options;
+}
+
+// Copies of solver traits may share one factor (those of Eigen_solver_traits do), and the search must keep its own: where it can, it makes new traits.
+template <typename SolverTraits>
+std::unique_ptr<Factorization> search_factorization(const SolverTraits& traits)
+{
+  CGAL_USE(traits);
+  if constexpr(std::is_default_constructible<SolverTraits>::value)
+    return make_factorization(SolverTraits());
+  else
+    return make_factorization(traits);
+}
+
+// Cones on a connected surface, with these options instead of those among the named parameters.
+template <typename NT, typename NamedParameters>
+Cone_placement<NT> place_cones_with(const Intrinsic_triangulation<NT>& t, const Cone_options& options, const NamedParameters& np)
+{
+  const auto traits = solver_traits_of(np);
+  try
+  {
+    return Cone_placer<NT>(t, options, read_solver_options(np, t.number_of_vertices()), search_factorization(traits),
+                           [&] { return make_factorization(traits); }).run();
+  }
+  catch(const std::bad_alloc&)
+  {
+    Cone_placement<NT> nothing;
+    nothing.status = Status::OUT_OF_MEMORY;
+    return nothing;
+  }
+}
+
+// The angle sums of all vertices inside the surface.
+template <typename TriangleMesh, typename VertexAngleMap>
+void write_cone_angles(const Imported_mesh<TriangleMesh, double>& mesh, const Flattening_report<TriangleMesh>& report, VertexAngleMap cone_angle_map)
+{
+  const Intrinsic_triangulation<double>& t = mesh.triangulation;
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v))
+      put(cone_angle_map, mesh.vertex(v), 2 * CGAL_PI);
+  for(const auto& cone : report.cones)
+    put(cone_angle_map, cone.vertex, cone.angle);
+}
+
+template <typename TriangleMesh, typename NamedParameters>
+void write_log_scale_factors(const Imported_mesh<TriangleMesh, double>& mesh, const Conformal_metric<double>& metric, const NamedParameters& np)
+{
+  for(std::uint32_t v = 0; v < mesh.triangulation.number_of_vertices(); ++v)
+    if(!mesh.triangulation.is_isolated_vertex(v))
+      put_if_given(np, internal_np::conformal_u, mesh.vertex(v), metric.log_scale_factors[v]);
 }
 
 } // namespace internal
@@ -61,16 +115,7 @@ Cone_options cone_options(const NamedParameters& np)
 template <typename NT, typename NamedParameters = parameters::Default_named_parameters>
 Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const NamedParameters& np = parameters::default_values())
 {
-  try
-  {
-    return internal::Cone_placer<NT, NamedParameters>(t, internal::cone_options(np), np)();
-  }
-  catch(const std::bad_alloc&)
-  {
-    Cone_placement<NT> nothing;
-    nothing.status = Status::OUT_OF_MEMORY;
-    return nothing;
-  }
+  return internal::place_cones_with(t, internal::read_cone_options(np), np);
 }
 
 /// \ingroup PkgConformalEquivalenceDoors
@@ -156,33 +201,22 @@ Flattening_report<TriangleMesh> place_cones(const TriangleMesh& tm,
 {
   static_assert(internal::Check_vertex_map<VertexAngleMap, TriangleMesh>::value);
   static_assert(internal::Check_pack<internal::Parameters_of_place_cones, TriangleMesh, NamedParameters>::value);
-  using parameters::get_parameter;
-  using parameters::is_default_parameter;
   const internal::Stopwatch stopwatch;
-  Imported_mesh<TriangleMesh, double> mesh = import_mesh(tm, np);
+  const Imported_mesh<TriangleMesh, double> mesh = import_mesh(tm, np);
   Flattening_report<TriangleMesh> report = internal::import_report(mesh);
   const double seconds = stopwatch.seconds();
   if(bool(report))
   {
-    const Intrinsic_triangulation<double>& t = mesh.triangulation;
-    const Cone_placement<double> placement = place_cones(t, np);
+    const Cone_placement<double> placement = place_cones(mesh.triangulation, np);
     internal::report_cones(mesh, placement, report);
     if(bool(report) || report.status == Status::BOUND_NOT_MET)
     {
-      for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
-        if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v))
-          put(cone_angle_map, mesh.vertex(v), 2 * CGAL_PI);
-      for(const auto& cone : report.cones)
-        put(cone_angle_map, cone.vertex, cone.angle);
-      if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_u_t>::value)
-        for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
-          if(!t.is_isolated_vertex(v))
-            put(get_parameter(np, internal_np::conformal_u), mesh.vertex(v), placement.metric.log_scale_factors[v]);
+      internal::write_cone_angles(mesh, report, cone_angle_map);
+      internal::write_log_scale_factors(mesh, placement.metric, np);
     }
   }
   report.statistics.seconds.import = seconds;
-  if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_report_t>::value)
-    get_parameter(np, internal_np::conformal_report).get() = report;
+  internal::write_if_given(np, internal_np::conformal_report, report);
   return report;
 }
 

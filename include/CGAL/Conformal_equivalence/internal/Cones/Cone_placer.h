@@ -8,28 +8,29 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
 
+#include <CGAL/Conformal_equivalence/Cone_placement.h>
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
-#include <CGAL/Conformal_equivalence/Cone_placement.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
-#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_excursion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_search.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/area_distortion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/nearest_integers.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
-#include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
-
-#include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <set>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,75 +38,43 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// What is asked of a placement; 0 stands for what is not asked.
 struct Cone_options
 {
-  std::size_t number_of_cones = 0; // 0: not given
-  double maximum_u = 0;            // 0: not given
-  double maximum_area_distortion = 0; // 0: not given
-  double angle_quantum = 0;        // 0: none
+  std::size_t number_of_cones = 0;
+  double maximum_u = 0;
+  double maximum_area_distortion = 0;
+  double angle_quantum = 0; // radians
   Cone_measure measure = Cone_measure::MAXIMUM_U;
   std::size_t number_of_sweeps = 10;
 };
 
-template <typename NT, typename NamedParameters>
+template <typename NT>
 class Cone_placer
 {
   typedef std::uint32_t Index;
   typedef Intrinsic_triangulation<NT> Triangulation;
-  typedef typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t, NamedParameters,
-                                                       Default_solver_traits>::type Solver_traits;
-  typedef Cone_search<NT, Solver_traits> Search;
+  typedef Cone_search<NT> Search;
 
 public:
-  Cone_placer(const Triangulation& t, const Cone_options& options, const NamedParameters& np)
-    : t_(t), options_(options), np_(np), pieces_(connected_components(t))
+  typedef std::function<std::unique_ptr<Factorization>()> Make_factorization;
+
+  // The search keeps one factor all the time, which must be none of those that are made for metrics meanwhile. Keeps a reference to `t`.
+  Cone_placer(const Triangulation& t, const Cone_options& options, const Solver_options& solver_options,
+              std::unique_ptr<Factorization> search_factorization, Make_factorization make_factorization)
+    : t_(t), options_(options), solver_options_(solver_options), make_factorization_(std::move(make_factorization)),
+      search_factorization_(std::move(search_factorization)), pieces_(connected_components(t))
   {}
 
-  Cone_placement<NT> operator()()
-  {
-    if(!check())
-      return std::move(result_);
-    Search search(t_, pieces_.components[0], traits(), options_.measure);
-    if(!check_number(search))
-      return std::move(result_);
-    if(!search.factorize())
-    {
-      refuse(Status::SINGULAR_PROBLEM);
-      return std::move(result_);
-    }
-    Placement p = search.without_cones(Vertex_vector(t_.number_of_vertices(), 0.));
-    if(!search.relax(p, 20) || p.error > 1e-2)
-      p = search.without_cones(first_u());
-    place_greedily(search, p);
-    p = optimized(search, std::move(p));
-    p = moved(search, p);
-    std::sort(p.cones.begin(), p.cones.end());
-    result_.cones = p.cones;
-    if(options_.angle_quantum > 0)
-      quantize(search, std::move(p));
-    else
-    {
-      solve(p);
-      if(is_success(result_.metric.status))
-        take_angles(free_angles());
-    }
-    result_.number_of_solves = search.number_of_solves();
-    finish();
-    return std::move(result_);
-  }
+  // Can be called once.
+  Cone_placement<NT> run();
 
 private:
-  static constexpr std::size_t most_cones_for_bound = 256;
-
-  // Copies of solver traits may share one factor (those of Eigen_solver_traits do). The factor of the search must not be replaced by those of the
-  // metrics that are solved for meanwhile.
-  Solver_traits traits() const
-  {
-    if constexpr(std::is_default_constructible<Solver_traits>::value)
-      return Solver_traits();
-    else
-      return parameters::get_parameter(np_, internal_np::sparse_linear_solver);
-  }
+  static constexpr std::size_t most_cones_for_bound = 256; // as the documentation of place_cones() says
+  static constexpr long most_quanta_of_turn = 2520;        // multiples of 2 pi / 2520 are told apart with ease; beyond, nobody means a multiple
+  static constexpr int steps_of_last_relaxation = 6;         // the steps converge linearly, and fast: more of them change hardly anything
+  static constexpr double usable_error = 1e-2;             // radians: Newton's method with the factor of u = 0 is on its way to a metric
+  static constexpr double error_worth_starting_at = 0.1;   // radians: up to here u is a better place to begin than 0
 
   void refuse(Status status, double amount = 0)
   {
@@ -148,12 +117,21 @@ private:
   long quanta_of_turn() const
   {
     const double n = 2 * Number_constants<double>::pi() / options_.angle_quantum, nearest = std::round(n);
-    return nearest >= 1 && nearest <= 2520 && std::abs(n - nearest) < 1e-6 ? long(nearest) : 0;
+    return nearest >= 1 && nearest <= most_quanta_of_turn && std::abs(n - nearest) < 1e-6 ? long(nearest) : 0;
   }
 
   // ---- Metrics
 
   Conformal_conditions<NT> natural_conditions() const { return Conformal_conditions<NT>(t_); }
+
+  Conformal_metric<NT> find_metric(const Conformal_conditions<NT>& conditions, const Solver_options& options) const
+  {
+    Metric_finder<NT> finder(t_, make_factorization_());
+    Conformal_metric<NT> result = finder.find(conditions, options);
+    if(!result.is_retriangulated())
+      result.triangulation = finder.take_triangulation();
+    return result;
+  }
 
   // Without a cone; the curvature of a closed surface is spread equally.
   Vertex_vector first_u() const
@@ -167,8 +145,9 @@ private:
         if(!t_.is_isolated_vertex(v))
           conditions.prescribe_angle_sum(v, NT(angle));
     }
-    const Conformal_metric<NT> metric = compute_conformal_metric(t_, conditions, Conformal_equivalence::combine_named_parameters(
-      np_, parameters::gradient_tolerance(1e-4)));
+    Solver_options rough = solver_options_;
+    rough.gradient_tolerance = 1e-4; // the search goes on from there, with steps of its own
+    const Conformal_metric<NT> metric = find_metric(conditions, rough);
     Vertex_vector u(t_.number_of_vertices(), 0.);
     for(std::size_t v = 0; v < u.size() && v < metric.log_scale_factors.size(); ++v)
       u[v] = static_cast<double>(metric.log_scale_factors[v]);
@@ -186,10 +165,9 @@ private:
       else
         conditions.prescribe_angle_sum(result_.cones[i], angles[i]);
     }
-    const Vertex_vector u = p.error <= 0.1 ? p.u : Vertex_vector(p.u.size(), 0.);
-    const auto initial_u = boost::make_iterator_property_map(u.begin(), boost::typed_identity_property_map<Index>());
-    result_.metric = compute_conformal_metric(t_, conditions, Conformal_equivalence::combine_named_parameters(
-      np_, parameters::initial_log_scale_factor_map(initial_u)));
+    Solver_options options = solver_options_;
+    options.initial_log_scale_factors = p.error <= error_worth_starting_at ? p.u : Vertex_vector(p.u.size(), 0.);
+    result_.metric = find_metric(conditions, options);
     measure();
   }
 
@@ -212,10 +190,13 @@ private:
     return result;
   }
 
-  void take_angles(const std::vector<double>& angles)
+  void keep_free(const Placement& p)
   {
-    result_.free_angles = angles;
-    for(double angle : angles)
+    solve(p);
+    if(!is_success(result_.metric.status))
+      return;
+    result_.free_angles = free_angles();
+    for(double angle : result_.free_angles)
     {
       Exact_angle<NT> exact;
       exact.rest = NT(angle);
@@ -308,13 +289,14 @@ private:
     return cones;
   }
 
-  // Moves single cones to vertices nearby, as long as that makes it better: always that which promises most. What is promised is exact to first order, but for vertices with a
-  // large |u| that have not been looked at, and but for the new place itself: vertices that break a promise are looked at from then on,
-  // and shorter moves are tried.
+  // Moves single cones to vertices nearby as long as that makes it better, always the one move that promises most. Promises are exact to first order,
+  // but for two things: |u| at vertices that have not been looked at, and u at the new place itself. Where a promise is broken, the vertex at fault is
+  // looked at from then on, and shorter moves are tried.
   Placement moved(Search& search, const Placement& first)
   {
+    // a surface is about sqrt(n) edges wide, and a cone that the sweeps have placed lies within a fraction of that
     const std::size_t reach = (std::max)(std::size_t(2), std::size_t(std::sqrt(double(search.candidates().size())) / 6));
-    const double gain = 5e-4;
+    const double gain = 5e-4; // a part of the measure: for less a move is not worth its solve
     Placement p = first;
     std::set<std::pair<Index, Index> > tried;
     std::size_t number_of_moves = 0;
@@ -326,7 +308,7 @@ private:
       if(!(move.expected < enough))
         break;
       Placement trial = search.moved(p, move.cone, move.curvature, move.to);
-      if(trial.measure < enough && search.relax(trial, 2, 1e-2, false) && trial.measure < enough)
+      if(trial.measure < enough && search.relax(trial, 2, usable_error, false) && trial.measure < enough)
       {
         p = std::move(trial);
         ++number_of_moves;
@@ -341,7 +323,7 @@ private:
         search.watch(trial);
       }
     }
-    if(number_of_moves == 0 || !search.relax(p, 6) || !(p.measure < first.measure))
+    if(number_of_moves == 0 || !search.relax(p, steps_of_last_relaxation) || !(p.measure < first.measure))
       return first;
     result_.number_of_moves += number_of_moves;
     return p;
@@ -355,37 +337,56 @@ private:
     if(!find_free_angles(search, p))
       return;
     const long n = quanta_of_turn();
-    const double quantum = 2 * Number_constants<double>::pi() / double(n);
-    std::vector<double> x;
-    for(double angle : result_.free_angles)
-      x.push_back(angle / quantum);
-    const long sum = number_of_borders() > 0 ? 0 : n * (long(x.size()) - long(pieces_.components[0].euler_characteristic()));
-    const std::vector<long> k = number_of_borders() == 0 && sum <= 0 ? std::vector<long>() : nearest_integers(x, sum);
-    if(k.empty() && !x.empty())
-    {
-      refuse(Status::NOT_QUANTIZABLE, double(sum) * quantum);
-      return;
-    }
+    const std::vector<long> k = nearest_multiples(n);
+    if(k.empty() && !result_.cones.empty())
+      return refuse(Status::NOT_QUANTIZABLE, double(sum_of_multiples(n)) * quantum(n));
     result_.is_rounded = true;
     Placement q;
     q.u = std::move(p.u);
-    std::vector<std::pair<Index, std::size_t> > kept;
+    std::vector<std::size_t> kept; // numbers of the cones of q among those of the result
     for(std::size_t i = 0; i < k.size(); ++i)
     {
       if(k[i] == n)
-        result_.flattened.push_back(result_.cones[i]);
-      else
       {
-        q.cones.push_back(result_.cones[i]);
-        q.angles.push_back(double(k[i]) * quantum);
-        kept.emplace_back(result_.cones[i], i);
+        result_.flattened.push_back(result_.cones[i]);
+        continue;
       }
+      q.cones.push_back(result_.cones[i]);
+      q.angles.push_back(double(k[i]) * quantum(n));
+      kept.push_back(i);
     }
-    if(!q.cones.empty() && search.relax(q, 6))
+    if(!q.cones.empty() && search.relax(q, steps_of_last_relaxation))
       q = moved(search, q);
+    take_rounded(q, kept, k, n);
+    solve(q, result_.angles);
+  }
+
+  static double quantum(long n) { return 2 * Number_constants<double>::pi() / double(n); }
+
+  // What the multiples of the cones must sum up to, by Gauss and Bonnet's formula; 0 if there is a border, which takes the rest.
+  long sum_of_multiples(long n) const
+  {
+    return number_of_borders() > 0 ? 0 : n * (long(result_.free_angles.size()) - long(pieces_.components[0].euler_characteristic()));
+  }
+
+  // By cone. Empty if there are none.
+  std::vector<long> nearest_multiples(long n) const
+  {
+    const long sum = sum_of_multiples(n);
+    if(number_of_borders() == 0 && sum <= 0)
+      return {};
+    std::vector<double> x;
+    for(double angle : result_.free_angles)
+      x.push_back(angle / quantum(n));
+    return nearest_integers(x, sum);
+  }
+
+  // The cones of q, in ascending order, with their multiples and what their angles were.
+  void take_rounded(const Placement& q, const std::vector<std::size_t>& kept, const std::vector<long>& k, long n)
+  {
     std::vector<std::pair<Index, std::size_t> > order;
     for(std::size_t i = 0; i < kept.size(); ++i)
-      order.emplace_back(q.cones[i], kept[i].second);
+      order.emplace_back(q.cones[i], kept[i]);
     std::sort(order.begin(), order.end());
     const std::vector<double> free_angles = std::move(result_.free_angles);
     result_.cones.clear();
@@ -397,7 +398,6 @@ private:
       result_.angles.push_back(multiple(k[cone.second], n));
       result_.free_angles.push_back(free_angles[cone.second]);
     }
-    solve(q, result_.angles);
   }
 
   static Exact_angle<NT> multiple(long k, long n)
@@ -413,10 +413,42 @@ private:
 
   const Triangulation& t_;
   const Cone_options options_;
-  const NamedParameters& np_;
+  const Solver_options solver_options_;
+  const Make_factorization make_factorization_;
+  std::unique_ptr<Factorization> search_factorization_;
   const Surface_components pieces_;
   Cone_placement<NT> result_;
 };
+
+template <typename NT>
+Cone_placement<NT> Cone_placer<NT>::run()
+{
+  if(!check())
+    return std::move(result_);
+  Search search(t_, pieces_.components[0], std::move(search_factorization_), options_.measure);
+  if(!check_number(search))
+    return std::move(result_);
+  if(!search.factorize())
+  {
+    refuse(Status::SINGULAR_PROBLEM);
+    return std::move(result_);
+  }
+  Placement p = search.without_cones(Vertex_vector(t_.number_of_vertices(), 0.));
+  if(!search.relax(p, 20) || p.error > usable_error)
+    p = search.without_cones(first_u());
+  place_greedily(search, p);
+  p = optimized(search, std::move(p));
+  p = moved(search, p);
+  std::sort(p.cones.begin(), p.cones.end());
+  result_.cones = p.cones;
+  if(options_.angle_quantum > 0)
+    quantize(search, std::move(p));
+  else
+    keep_free(p);
+  result_.number_of_solves = search.number_of_solves();
+  finish();
+  return std::move(result_);
+}
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -23,6 +23,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_excursion.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 #include <CGAL/Conformal_equivalence/options.h>
@@ -53,7 +54,7 @@ struct Cone_move
   double expected = std::numeric_limits<double>::infinity();
 };
 
-template <typename NT, typename SolverTraits>
+template <typename NT>
 class Cone_search
 {
   typedef std::uint32_t Index;
@@ -61,8 +62,9 @@ class Cone_search
 
 public:
   // One component, with natural borders (u = 0) or closed. Keeps a reference.
-  Cone_search(const Triangulation& t, const Surface_components::Component& component, const SolverTraits& traits, Cone_measure measure)
-    : t_(t), energy_(t, true), linear_(make_factorization(traits)), kind_(measure),
+  Cone_search(const Triangulation& t, const Surface_components::Component& component, std::unique_ptr<Factorization> factorization,
+              Cone_measure measure)
+    : t_(t), energy_(t, true), linear_(std::move(factorization)), kind_(measure),
       is_closed_(component.number_of_borders == 0), euler_characteristic_(double(component.euler_characteristic()))
   {
     std::vector<char> free(t.number_of_vertices(), 0);
