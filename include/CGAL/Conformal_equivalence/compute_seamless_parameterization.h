@@ -10,216 +10,35 @@
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
-#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
-#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/rectification.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
-#include <CGAL/Conformal_equivalence/place_cones.h>
+#include <CGAL/Conformal_equivalence/options.h>
 
-#include <CGAL/number_utils.h>
-
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <new>
-#include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Conformal_equivalence {
 
 namespace internal {
 
-// One seamless parameterization: the metric with its cones, its layout, and the layout rectified.
-template <typename TriangleMesh, typename NamedParameters>
-class Seamless_parameterization
+template <typename NamedParameters>
+Seamless_options read_seamless_options(const NamedParameters& np)
 {
-  typedef std::uint32_t Index;
-  typedef typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t, NamedParameters,
-                                                       Default_solver_traits>::type Solver_traits;
-  template <typename Tag>
-  using Is_absent = parameters::is_default_parameter<NamedParameters, Tag>;
-
-  // Cones place themselves unless they, or the angles of borders, are given.
-  static constexpr bool is_automatic = Is_absent<internal_np::conformal_cone_angle_t>::value
-                                    && Is_absent<internal_np::conformal_border_angle_t>::value
-                                    && !(Is_absent<internal_np::conformal_number_of_cones_t>::value
-                                         && Is_absent<internal_np::conformal_maximum_u_t>::value
-                                         && Is_absent<internal_np::conformal_maximum_area_distortion_t>::value);
-
-public:
-  Flattening<TriangleMesh> flattening;
-
-  Seamless_parameterization(const TriangleMesh& tm, const NamedParameters& np) : flattening(import_charts(tm, np)), np_(np) {}
-
-  void operator()()
-  {
-    Flattening_report<TriangleMesh>& report = flattening.report;
-    flattening.run_with_metric(np_, [&]
-    {
-      if(check())
-        find_metric();
-    }, [] {}); // what is judged is the layout that is rectified
-    if(!bool(report))
-      return;
-    if constexpr(is_automatic)
-      report_rounding(flattening.mesh, placement_, report);
-    const Stopwatch rectifying;
-    try
-    {
-      rectify();
-    }
-    catch(const std::bad_alloc&)
-    {
-      report.status = Status::OUT_OF_MEMORY;
-    }
-    report.statistics.seconds.layout += rectifying.seconds();
-    if(bool(report) && placement_.status == Status::BOUND_NOT_MET)
-    {
-      report.status = placement_.status;
-      report.amount = placement_.amount;
-    }
-  }
-
-private:
-  // ---- What can be asked for
-
-  double quantum() const
-  {
-    return parameters::choose_parameter(parameters::get_parameter(np_, internal_np::conformal_angle_quantum), CGAL_PI / 2);
-  }
-
-  // n of the quantum 2 pi / n; 0 if there is no such lattice
-  int symmetry() const
-  {
-    const double n = 2 * CGAL_PI / quantum(), nearest = std::round(n);
-    return std::abs(n - nearest) < 1e-6 && nearest < 10 && Texture_lattice::exists(long(nearest)) ? int(nearest) : 0;
-  }
-
-  bool check()
-  {
-    Flattening_report<TriangleMesh>& report = flattening.report;
-    if(report.topology.number_of_components != 1)
-      report.status = Status::WRONG_TOPOLOGY;
-    else if(symmetry() == 0)
-    {
-      report.status = Status::ANGLE_OUT_OF_RANGE;
-      report.amount = quantum();
-    }
-    else if(!(options().maximum_distortion >= 1))
-      report.status = Status::INVALID_NUMBER;
-    return bool(report);
-  }
-
-  // ---- Metric
-
-  void find_metric()
-  {
-    if constexpr(is_automatic)
-      place();
-    else
-      flattening.find_metric(np_, [&] { return check_cones(); });
-  }
-
-  void place()
-  {
-    const Intrinsic_triangulation<double>& t = flattening.mesh.triangulation;
-    placement_ = place_cones(t, Conformal_equivalence::combine_named_parameters(np_, parameters::angle_quantum(quantum())));
-    Conformal_conditions<double> conditions(t);
-    Conformal_metric<double> metric = std::move(placement_.metric);
-    if(bool(placement_) || placement_.status == Status::BOUND_NOT_MET)
-      for(std::size_t i = 0; i < placement_.cones.size(); ++i)
-        conditions.prescribe_angle_sum(placement_.cones[i], placement_.angles[i]);
-    else
-    {
-      metric.status = placement_.status;
-      metric.amount = placement_.amount;
-    }
-    flattening.take(std::move(metric), std::move(conditions));
-  }
-
-  // The cones given must have multiples of the quantum; those of free angle have none that is known.
-  bool check_cones()
-  {
-    std::vector<Index> wrong;
-    for(Index v : flattening.cones())
-      if(flattening.conditions().is_fixed(v) || !is_multiple(flattening.conditions().angle_sum(v)))
-        wrong.push_back(v);
-    if(wrong.empty())
-      return true;
-    Flattening_report<TriangleMesh>& report = flattening.report;
-    report.status = Status::ANGLE_OUT_OF_RANGE;
-    const Index v = wrong.front();
-    report.amount = flattening.conditions().is_fixed(v) ? 0 : flattening.conditions().angle_sum(v).template radians<double>();
-    name_elements(flattening.mesh, wrong, {}, {}, report);
-    return false;
-  }
-
-  bool is_multiple(const Exact_angle<double>& angle) const
-  {
-    return angle.is_exact() && angle.units % (2 * Exact_angle<double>::units_of_pi / symmetry()) == 0;
-  }
-
-  // ---- Rectification
-
-  std::vector<Quantized_cone> quantized_cones() const
-  {
-    const long unit = 2 * Exact_angle<double>::units_of_pi / symmetry();
-    std::vector<Quantized_cone> result;
-    for(Index v : flattening.cones())
-      result.push_back({v, flattening.conditions().angle_sum(v).units / unit});
-    return result;
-  }
-
-  Rectification_options options() const
-  {
-    using parameters::choose_parameter;
-    using parameters::get_parameter;
-    Rectification_options result;
-    result.number_of_tiles = double(choose_parameter(get_parameter(np_, internal_np::conformal_number_of_tiles), std::size_t(0)));
-    result.maximum_distortion = choose_parameter(get_parameter(np_, internal_np::conformal_maximum_distortion), result.maximum_distortion);
-    result.is_lattice_coordinates = choose_parameter(get_parameter(np_, internal_np::conformal_seamless_coordinates),
-                                                     Seamless_coordinates::CARTESIAN) == Seamless_coordinates::LATTICE;
-    return result;
-  }
-
-  void rectify()
-  {
-    Flattening_report<TriangleMesh>& report = flattening.report;
-    const std::vector<Quantized_cone> cones = quantized_cones();
-    typedef Rectification<Solver_traits> Rectification;
-    Rectification rectified(flattening.mesh.triangulation, flattening.cut, flattening.layout, cones, Texture_lattice(symmetry()), options(),
-                            parameters::choose_parameter<Solver_traits>(parameters::get_parameter(np_, internal_np::sparse_linear_solver)));
-    if(rectified.status != Status::OK)
-    {
-      report.status = rectified.status;
-      report.amount = rectified.amount;
-      name_elements(flattening.mesh, {}, rectified.edges, rectified.faces, report);
-      if(rectified.status != Status::BOUND_NOT_MET)
-        return;
-    }
-    report.tiling = rectified.tiling;
-    for(std::size_t i = 0; i < report.cones.size(); ++i)
-      report.cones[i].lattice_point = rectified.cone_positions[i];
-    for(std::size_t i = 0; i < report.transitions.size(); ++i)
-    {
-      const Transition<double>& exact = rectified.layout.transitions[i];
-      report.transitions[i].rotation = exact.rotation;
-      report.transitions[i].translation = exact.translation;
-      report.transitions[i].quanta = rectified.quanta[i];
-      report.transitions[i].lattice_translation = rectified.translations[i];
-    }
-    report.lattices.clear();
-    flattening.layout = std::move(rectified.layout);
-  }
-
-  const NamedParameters& np_;
-  Cone_placement<double> placement_;
-};
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  Seamless_options result;
+  result.angle_quantum = choose_parameter(get_parameter(np, internal_np::conformal_angle_quantum), result.angle_quantum);
+  Rectification_options& options = result.rectification;
+  options.number_of_tiles = double(choose_parameter(get_parameter(np, internal_np::conformal_number_of_tiles), std::size_t(0)));
+  options.maximum_distortion = choose_parameter(get_parameter(np, internal_np::conformal_maximum_distortion), options.maximum_distortion);
+  options.is_lattice_coordinates = choose_parameter(get_parameter(np, internal_np::conformal_seamless_coordinates),
+                                                    Seamless_coordinates::CARTESIAN) == Seamless_coordinates::LATTICE;
+  return result;
+}
 
 } // namespace internal
 
@@ -318,8 +137,8 @@ Flattening_report<TriangleMesh> compute_seamless_parameterization(const Triangle
 {
   static_assert(internal::Check_halfedge_map<HalfedgeUVMap, TriangleMesh>::value);
   static_assert(internal::Check_pack<internal::Parameters_of_seamless_parameterization, TriangleMesh, NamedParameters>::value);
-  internal::Seamless_parameterization<TriangleMesh, NamedParameters> seamless(tm, np);
-  seamless();
+  internal::Seamless_parameterization<TriangleMesh> seamless(internal::import_charts(tm, np), internal::read_seamless_options(np));
+  seamless.run(np);
   const Flattening_report<TriangleMesh>& report = seamless.flattening.report;
   if(bool(report) || report.status == Status::BOUND_NOT_MET)
   {

@@ -22,6 +22,7 @@
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
@@ -449,6 +450,10 @@ Cone_placement<NT> Cone_placer<NT>::run()
   finish();
   return std::move(result_);
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED
+extern template Cone_placement<double> Cone_placer<double>::run();
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -18,7 +18,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_POSITION_LATTICE_H
 
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/meta_polygon.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Meta_polygon.h>
 
 #include <algorithm>
 #include <array>

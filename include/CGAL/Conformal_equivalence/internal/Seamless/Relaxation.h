@@ -12,7 +12,7 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/meta_polygon.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Meta_polygon.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <algorithm>

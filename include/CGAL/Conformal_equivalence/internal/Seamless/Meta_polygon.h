@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Quantized_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
 
 #include <CGAL/number_utils.h>
@@ -35,13 +36,6 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-// A cone, with its angle sum as a multiple of 2 pi / n.
-struct Quantized_cone
-{
-  std::uint32_t vertex;
-  long quanta;
-};
 
 class Meta_polygon
 {

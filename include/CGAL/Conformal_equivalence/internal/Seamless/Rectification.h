@@ -4,25 +4,30 @@
 // Texture rectification (section 6 of Springborn, Schroeder and Pinkall, 2008): a flat layout whose cones have multiples of 2 pi / n is
 // deformed, as little as possible, until its cones are lattice points, and the motions across its cut symmetries of the lattice.
 //
-// What can be admitted is in position_lattice.h, what is chosen in position_choice.h, how the layout follows in laplace_layout.h, and how
-// seams become exact in seamless_layout.h.
+// What can be admitted is in position_lattice.h, what is chosen in Position_choice.h, how the layout follows in Laplace_layout.h, and how
+// seams become exact in Seamless_layout.h.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_RECTIFICATION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_RECTIFICATION_H
 
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
-#include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/conformal_distortion.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Laplace_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Meta_polygon.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Normalized_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Position_choice.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Quantized_cone.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Rectified_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Seamless_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
-#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/laplace_layout.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/meta_polygon.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/position_choice.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/mean_factor.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/position_lattice.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/seamless_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>
@@ -30,7 +35,6 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -51,73 +55,36 @@ struct Rectification_options
   bool is_lattice_coordinates = false;
 };
 
-// The mean and the largest quasi-conformal factor of maps of the faces.
-struct Mean_factor
-{
-  double mean = 1, largest = 1;
-};
-
-template <typename SolverTraits>
+// `NT` is `double`: it is a template so that it can be compiled once (compiled.h).
+template <typename NT>
 class Rectification
 {
   typedef std::uint32_t Index;
-  typedef Intrinsic_triangulation<double> Triangulation;
+  typedef Intrinsic_triangulation<NT> Triangulation;
   typedef std::complex<double> Complex;
   typedef Lattice_coordinates<std::int64_t> Lattice_point;
-  typedef Laplace_layout<double, SolverTraits> Laplace;
   typedef Position_choice::Coefficients Coefficients;
   typedef Position_choice::Candidate Candidate;
   typedef Seamless_layout::Motions Motions;
   typedef Seamless_layout::Positions Positions;
 
 public:
-  Status status = Status::OK;         // BOUND_NOT_MET: the layout is there nevertheless
-  double amount = 0;
-  std::vector<Index> edges, faces;    // at fault
-
-  Layout<double> layout;
-  Tiling tiling;
-  std::vector<Lattice_point> cone_positions;       // in the first corners
-  std::vector<int> quanta;                         // by transition of `layout`
-  std::vector<Lattice_point> translations;         // by transition of `layout`
-
   // `flat` is the layout of one surface. Keeps references.
-  Rectification(const Triangulation& t, const Cut_graph& cut, const Layout<double>& flat, const std::vector<Quantized_cone>& cones,
-                const Texture_lattice& lattice, const Rectification_options& options, const SolverTraits& traits)
-    : t_(t), cut_(cut), flat_(flat), cones_(cones), lattice_(lattice), options_(options), traits_(traits),
+  Rectification(const Triangulation& t, const Cut_graph& cut, const Layout<NT>& flat, const std::vector<Quantized_cone>& cones,
+                const Texture_lattice& lattice, const Rectification_options& options, std::unique_ptr<Factorization> factorization)
+    : t_(t), cut_(cut), flat_(flat), cones_(cones), lattice_(lattice), options_(options), factorization_(std::move(factorization)),
       polygon_(t, cut, flat, cones, lattice), seamless_(t, polygon_, lattice_, cones, options.is_lattice_coordinates)
-  {
-    if(polygon_.status != Status::OK)
-    {
-      status = polygon_.status;
-      amount = polygon_.amount;
-      edges = polygon_.edges;
-      return;
-    }
-    normalize();
-    if(!untangle_flat())
-    {
-      refuse_inverted();
-      return;
-    }
-    positions_ = position_lattice(polygon_, cones.size(), lattice);
-    if(!positions_.fits)
-      status = Status::NOT_REPRESENTABLE;
-    else if(positions_.rank() == 0)
-      scale_only();
-    else if(find_choice())
-      deform();
-    else
-      status = Status::SINGULAR_PROBLEM;
-    if(status == Status::OK || status == Status::BOUND_NOT_MET)
-      report();
-  }
+  {}
 
   Rectification(const Rectification&) = delete;
   Rectification& operator=(const Rectification&) = delete;
 
+  // Can be called once. The caller may take the result away.
+  Rectified_layout& run();
+
   // ---- For tests and comparisons
 
+  const Rectified_layout& result() const { return result_; }
   const Meta_polygon& polygon() const { return polygon_; }
   const Position_lattice& positions() const { return positions_; }
   const Position_choice& choice() const { return *choice_; } // if the lattice of positions has a rank
@@ -128,52 +95,36 @@ public:
     return (*laplace_)(data(choice_->plane_positions(x)));
   }
 
-  // The corners of the flat layout, with its area 1 and the first cone in the origin.
-  const std::vector<Complex>& normalized_corners() const { return corner_; }
+  // The corners of the normalized layout.
+  const std::vector<Complex>& normalized_corners() const { return normalized_->corners(); }
 
 private:
+  void find()
+  {
+    if(polygon_.status != Status::OK)
+    {
+      result_.status = polygon_.status;
+      result_.amount = polygon_.amount;
+      result_.edges = polygon_.edges;
+      return;
+    }
+    normalized_ = std::make_unique<Normalized_layout>(t_, flat_, cones_, lattice_, polygon_);
+    if(!untangle_flat())
+      return refuse_inverted();
+    positions_ = position_lattice(polygon_, cones_.size(), lattice_);
+    if(!positions_.fits)
+      result_.status = Status::NOT_REPRESENTABLE;
+    else if(positions_.rank() == 0)
+      scale_only();
+    else if(find_choice())
+      deform();
+    else
+      result_.status = Status::SINGULAR_PROBLEM;
+  }
+
   // ---- The flat layout
 
-  // Area 1, the first cone in the origin; without a cone, what the first path that turns goes round.
-  void normalize()
-  {
-    corner_.resize(t_.number_of_halfedges());
-    double largest = 0;
-    for(const auto& p : flat_.corner)
-      largest = (std::max)(largest, (std::max)(std::abs(p[0]), std::abs(p[1])));
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    for(Index h = 0; h < corner_.size(); ++h)
-      corner_[h] = Complex(std::scalbn(flat_.corner[h][0], -exponent), std::scalbn(flat_.corner[h][1], -exponent));
-    double area = 0;
-    for(Index f = 0; f < t_.number_of_faces(); ++f)
-      area += std::imag(std::conj(corner_[3 * f + 1] - corner_[3 * f]) * (corner_[3 * f + 2] - corner_[3 * f])) / 2;
-    const double side = std::sqrt(area);
-    unit_ = std::scalbn(side, exponent);
-    for(Complex& z : corner_)
-      z /= side;
-    for(auto& path : polygon_.paths)
-      path.translation = Complex(std::scalbn(path.translation.real(), -exponent), std::scalbn(path.translation.imag(), -exponent)) / side;
-    move_origin(origin());
-  }
-
-  Complex origin() const
-  {
-    if(!cones_.empty())
-      return corner_[polygon_.first_corner[cones_.front().vertex]];
-    for(const auto& path : polygon_.paths)
-      if(path.quanta != 0)
-        return path.translation / (1. - lattice_.rotation(path.quanta));
-    return 0;
-  }
-
-  void move_origin(const Complex& origin)
-  {
-    for(Complex& z : corner_)
-      z -= origin;
-    for(auto& path : polygon_.paths)
-      path.translation += (lattice_.rotation(path.quanta) - 1.) * origin;
-  }
+  const Complex& flat_corner(Index h) const { return (*normalized_)[h]; }
 
   // Straight triangles of the layout that are inverted, as where edges were flipped, are mended first.
   bool untangle_flat()
@@ -184,7 +135,7 @@ private:
     flat_z_.assign(t_.number_of_vertices(), Lattice_coordinates<double>{{0, 0}});
     for(Index v = 0; v < flat_z_.size(); ++v)
       if(!t_.is_isolated_vertex(v))
-        flat_z_[v] = lattice_.from_plane(corner_[polygon_.first_corner[v]]);
+        flat_z_[v] = lattice_.from_plane(flat_corner(polygon_.first_corner[v]));
     bool is_positive = true;
     for(Index f = 0; f < t_.number_of_faces() && is_positive; ++f)
       is_positive = is_flat_positive(f);
@@ -205,9 +156,9 @@ private:
 
   // ---- Energy
 
-  typename Laplace::Data data(const Coefficients& positions) const
+  Laplace_layout::Data data(const Coefficients& positions) const
   {
-    typename Laplace::Data result;
+    Laplace_layout::Data result;
     std::vector<Lattice_coordinates<double> > translations;
     for(std::size_t p = 0; p < polygon_.paths.size(); ++p)
       translations.push_back(lattice_.from_plane(positions(cones_.size() + p)));
@@ -224,7 +175,7 @@ private:
   {
     Coefficients flat_positions(cones_.size() + polygon_.paths.size());
     for(std::size_t i = 0; i < cones_.size(); ++i)
-      flat_positions(i) = corner_[polygon_.first_corner[cones_[i].vertex]];
+      flat_positions(i) = flat_corner(polygon_.first_corner[cones_[i].vertex]);
     for(std::size_t p = 0; p < polygon_.paths.size(); ++p)
       flat_positions(cones_.size() + p) = polygon_.paths[p].translation;
 
@@ -235,7 +186,7 @@ private:
       is_turned = is_turned || path.quanta != 0;
     if(!is_turned)
       fixed_.push_back(t_.target(0));
-    laplace_ = std::make_unique<Laplace>(t_, corner_, polygon_, lattice_, fixed_, traits_);
+    laplace_ = std::make_unique<Laplace_layout>(t_, normalized_->corners(), polygon_, lattice_, fixed_, std::move(factorization_));
     if(!laplace_->factorize())
       return false;
     choice_ = std::make_unique<Position_choice>(positions_, lattice_, flat_positions, [&](const Eigen::MatrixXcd& basis) { return energy(basis); });
@@ -249,7 +200,7 @@ private:
     std::vector<std::vector<Complex> > forces(r), responses(r);
     for(Eigen::Index j = 0; j < r; ++j)
     {
-      const typename Laplace::Data d = data(basis.col(j));
+      const Laplace_layout::Data d = data(basis.col(j));
       const std::vector<Complex> z = (*laplace_)(d);
       if(z.empty())
         return Eigen::MatrixXcd::Constant(r, r, std::numeric_limits<double>::quiet_NaN());
@@ -281,8 +232,9 @@ private:
   // If triangles are inverted whatever candidate is taken, on a finer grid.
   void deform_to_number_of_tiles()
   {
-    const std::size_t most_tried = 6;
-    for(int finer = 0; finer < 8; ++finer)
+    const std::size_t most_tried = 6; // of about eight rotations that are aimed at, and their second best
+    const int most_refinements = 8;   // as triangles that are inverted with 256 times as many tiles are so because of the layout, not of the grid
+    for(int finer = 0; finer < most_refinements; ++finer)
     {
       const std::vector<Candidate> c = choice_->candidates(std::ldexp(options_.number_of_tiles, finer));
       for(std::size_t i = 0; i < c.size() && i < most_tried; ++i)
@@ -295,15 +247,15 @@ private:
   // As few tiles as the bound on the mean distortion allows.
   void deform_within_bound()
   {
-    const std::size_t most_tried = 2;
-    const double most_tiles = 1e9;
+    const std::size_t most_tried = 2; // the next number of tiles comes soon
+    const double most_tiles = 1e9;    // so that lattice points stay far below the range in which seams are exact
     bool is_found = false;
     for(double tiles = 1; tiles < most_tiles; tiles *= std::sqrt(2.))
     {
       const std::vector<Candidate> c = choice_->candidates(tiles);
       for(std::size_t i = 0; i < c.size() && i < most_tried; ++i)
       {
-        if(choice_->expected_distortion(choice_->complex_coefficients(c[i].coefficients)) > 1 + 1.5 * (options_.maximum_distortion - 1) + 1e-12)
+        if(choice_->expected_distortion(choice_->complex_coefficients(c[i].coefficients)) > most_expected_distortion())
           break;
         if(!try_candidate(c[i]))
           continue;
@@ -316,8 +268,8 @@ private:
     }
     if(!is_found)
       return refuse_inverted();
-    status = Status::BOUND_NOT_MET;
-    amount = tiling.mean_distortion;
+    result_.status = Status::BOUND_NOT_MET;
+    result_.amount = result_.tiling.mean_distortion;
   }
 
   // Looks longer than before for positions closer to what was aimed at than those that were taken; most often proves that there are none.
@@ -327,19 +279,23 @@ private:
       return;
     const Candidate closest = choice_->closest(taken);
     if(closest.coefficients == taken.coefficients)
-      tiling.is_closest = closest.is_closest;
+      result_.tiling.is_closest = closest.is_closest;
     else
       try_candidate(closest); // what is there is kept if this one inverts triangles
   }
 
-  bool is_within_bound() const { return tiling.mean_distortion <= (std::max)(options_.maximum_distortion, 1 + 1e-9); }
+  // The expected distortion is seldom below the true mean, and not by half as much again: what is above this is not worth a try.
+  double most_expected_distortion() const { return 1 + 1.5 * (options_.maximum_distortion - 1) + 1e-12; }
+
+  // A layout that need not be deformed has a mean distortion of 1, up to rounding.
+  bool is_within_bound() const { return result_.tiling.mean_distortion <= (std::max)(options_.maximum_distortion, 1 + 1e-9); }
 
   void refuse_inverted()
   {
-    status = Status::NOT_INJECTIVE;
-    faces = seamless_.inverted();
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    result_.status = Status::NOT_INJECTIVE;
+    result_.faces = seamless_.inverted();
+    std::sort(result_.faces.begin(), result_.faces.end());
+    result_.faces.erase(std::unique(result_.faces.begin(), result_.faces.end()), result_.faces.end());
   }
 
   // ---- Positions
@@ -359,15 +315,15 @@ private:
       const Lattice_coordinates<double> by = lattice_.from_plane(moved[v]);
       z[v] = {{z[v][0] + by[0], z[v][1] + by[1]}};
       if(!t_.is_isolated_vertex(Index(v)))
-        unmended[v] = lattice_.from_plane(s * corner_[polygon_.first_corner[v]] + moved[v]);
+        unmended[v] = lattice_.from_plane(s * flat_corner(polygon_.first_corner[v]) + moved[v]);
     }
     const Motions motion = motions(positions);
     if(!finish(std::move(z), positions, motion, s))
       return false;
     const Mean_factor deformation = deformation_factor(motion, unmended);
-    tiling.is_closest = c.is_closest;
-    tiling.mean_distortion = deformation.mean;
-    tiling.maximum_distortion = deformation.largest;
+    result_.tiling.is_closest = c.is_closest;
+    result_.tiling.mean_distortion = deformation.mean;
+    result_.tiling.maximum_distortion = deformation.largest;
     return true;
   }
 
@@ -385,7 +341,8 @@ private:
   // Nothing need be deformed: the scale alone is free.
   void scale_only()
   {
-    const double tiles = options_.number_of_tiles > 0 ? options_.number_of_tiles : 64;
+    const double default_number_of_tiles = 64; // any number would do: nothing hangs on it
+    const double tiles = options_.number_of_tiles > 0 ? options_.number_of_tiles : default_number_of_tiles;
     const double s = std::sqrt(tiles * lattice_.area_of_tile());
     const std::vector<Lattice_point> origin(cones_.size() + polygon_.paths.size(), Lattice_point{{0, 0}});
     if(!finish(scaled_flat(s), origin, motions(origin), s))
@@ -402,8 +359,8 @@ private:
       return false;
     translation_of_path_.assign(integral.begin() + cones_.size(), integral.end());
     CGAL_postcondition(seamless_.is_seamless(motion, z, translation_of_path_));
-    layout = std::move(result);
-    cone_positions.assign(integral.begin(), integral.begin() + cones_.size());
+    result_.layout = std::move(result);
+    result_.cone_positions.assign(integral.begin(), integral.begin() + cones_.size());
     scale_ = s;
     return true;
   }
@@ -412,7 +369,7 @@ private:
 
   void report()
   {
-    layout.length_error = flat_.length_error;
+    result_.layout.length_error = flat_.length_error;
     find_transitions();
     measure();
   }
@@ -426,9 +383,9 @@ private:
         continue;
       const auto motion = polygon_.after(Meta_polygon::Values<std::int64_t>(), polygon_.crossing(h), translation_of_path_);
       const Complex rotation = lattice_.rotation(motion.quanta), by = lattice_.to_plane(motion.translation);
-      layout.transitions.push_back({h, {{rotation.real(), rotation.imag()}}, {{by.real(), by.imag()}}});
-      quanta.push_back(motion.quanta);
-      translations.push_back(motion.translation);
+      result_.layout.transitions.push_back({h, {{rotation.real(), rotation.imag()}}, {{by.real(), by.imag()}}});
+      result_.quanta.push_back(motion.quanta);
+      result_.translations.push_back(motion.translation);
     }
   }
 
@@ -436,25 +393,25 @@ private:
 
   void measure()
   {
-    tiling.symmetry = lattice_.symmetry();
-    tiling.scale = std::abs(scale_) / unit_;
-    tiling.rotation = std::remainder(std::arg(scale_), 2 * CGAL_PI);
+    result_.tiling.symmetry = lattice_.symmetry();
+    result_.tiling.scale = std::abs(scale_) / normalized_->unit();
+    result_.tiling.rotation = std::remainder(std::arg(scale_), 2 * CGAL_PI);
     std::vector<Face_distortion> before, after;
     double area = 0;
     for(Index f = 0; f < t_.number_of_faces(); ++f)
     {
-      const UV_corners image = uv([&](Index h) { return in_plane(h); }, f);
-      const Triangle_frame given = given_frame(f);
+      const UV_corners image = uv_corners([&](Index h) { return in_plane(h); }, f);
+      const Triangle_frame given = given_frame(t_, f);
       if(!given.is_degenerate())
       {
-        before.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, uv([&](Index h) { return corner_[h]; }, f))});
+        before.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, uv_corners([&](Index h) { return flat_corner(h); }, f))});
         after.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, image)});
       }
       area += std::imag(std::conj(in_plane(3 * f + 1) - in_plane(3 * f)) * (in_plane(3 * f + 2) - in_plane(3 * f))) / 2;
     }
-    tiling.number_of_tiles = area / lattice_.area_of_tile();
-    tiling.mean_factor_before = mean_factor(before).mean;
-    tiling.mean_factor = mean_factor(after).mean;
+    result_.tiling.number_of_tiles = area / lattice_.area_of_tile();
+    result_.tiling.mean_factor_before = mean_factor(before).mean;
+    result_.tiling.mean_factor = mean_factor(after).mean;
   }
 
   // Of the map from the flat surface, where its straight triangles are positive.
@@ -464,83 +421,52 @@ private:
     std::vector<Face_distortion> result;
     for(Index f = 0; f < t_.number_of_faces(); ++f)
     {
-      const Triangle_frame given = given_frame(f);
+      const Triangle_frame given = given_frame(t_, f);
       if(!given.is_degenerate() && is_flat_positive(f))
-        result.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(plane_frame(f), uv(image, f))});
+        result.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(plane_frame(normalized_->corners(), f), uv_corners(image, f))});
     }
     return mean_factor(result);
   }
 
-  // Of the triangle of the mesh.
-  Triangle_frame given_frame(Index f) const
-  {
-    return frame_from_lengths({{t_.halfedge_length(3 * f + 2), t_.halfedge_length(3 * f), t_.halfedge_length(3 * f + 1)}});
-  }
-
   Complex in_plane(Index h) const
   {
-    return options_.is_lattice_coordinates ? lattice_.to_plane(layout.corner[h]) : Complex(layout.corner[h][0], layout.corner[h][1]);
-  }
-
-  template <typename Corner>
-  static UV_corners uv(Corner corner, Index f)
-  {
-    const Complex p = corner(3 * f), q = corner(3 * f + 1), r = corner(3 * f + 2);
-    return {{UV_point(p.real(), p.imag()), UV_point(q.real(), q.imag()), UV_point(r.real(), r.imag())}};
-  }
-
-  // Of the flat triangle.
-  Triangle_frame plane_frame(Index f) const
-  {
-    std::array<Space_vector, 3> e;
-    for(Index k = 0; k < 3; ++k)
-    {
-      const Complex d = corner_[3 * f + (k + 2) % 3] - corner_[3 * f + (k + 1) % 3];
-      e[k] = {{d.real(), d.imag(), 0}};
-    }
-    return frame_from_edge_vectors(e);
-  }
-
-  // Weighted by the areas in the mesh.
-  static Mean_factor mean_factor(const std::vector<Face_distortion>& faces)
-  {
-    Mean_factor result;
-    if(faces.empty())
-      return result;
-    const Scaled_number<double> total = total_area(faces, [](const Face_distortion& f) { return f.area; });
-    double excess = 0;
-    for(const Face_distortion& f : faces)
-    {
-      const double weight = f.area.scaled_to(total.exponent) / total.mantissa;
-      if(!(weight > 0) || std::isnan(f.factor)) // a needle without an area in the plane
-        continue;
-      excess += weight * (f.factor - 1);
-      result.largest = (std::max)(result.largest, f.factor);
-    }
-    result.mean = 1 + excess;
-    return result;
+    const auto& p = result_.layout.corner[h];
+    return options_.is_lattice_coordinates ? lattice_.to_plane(p) : Complex(p[0], p[1]);
   }
 
   const Triangulation& t_;
   const Cut_graph& cut_;
-  const Layout<double>& flat_;
+  const Layout<NT>& flat_;
   const std::vector<Quantized_cone>& cones_;
   const Texture_lattice lattice_;
   const Rectification_options options_;
-  const SolverTraits traits_;
+  std::unique_ptr<Factorization> factorization_;
   Meta_polygon polygon_;
   Seamless_layout seamless_;
 
-  std::vector<Complex> corner_;       // of the flat layout, normalized
-  Positions flat_z_;                  // by vertex, in its first corner: the same, without inverted triangles
-  double unit_ = 1;                   // by which it was divided
+  Rectified_layout result_;
+  std::unique_ptr<Normalized_layout> normalized_; // set up once the polygon is known to be one
+  Positions flat_z_;                  // by vertex, in its first corner: the normalized layout, without inverted triangles
   Position_lattice positions_;
   Complex scale_ = 1;                 // by which the normalized layout was turned and scaled, in the layout taken
   std::vector<Lattice_point> translation_of_path_; // the same
   std::vector<Index> fixed_;
-  std::unique_ptr<Laplace> laplace_;
+  std::unique_ptr<Laplace_layout> laplace_;
   std::unique_ptr<Position_choice> choice_;
 };
+
+template <typename NT>
+Rectified_layout& Rectification<NT>::run()
+{
+  find();
+  if(result_.status == Status::OK || result_.status == Status::BOUND_NOT_MET)
+    report();
+  return result_;
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED
+extern template Rectified_layout& Rectification<double>::run();
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

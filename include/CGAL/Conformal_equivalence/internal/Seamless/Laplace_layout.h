@@ -23,9 +23,9 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_LAPLACE_LAYOUT_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Meta_polygon.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/meta_polygon.h>
-#include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 
 #include <Eigen/SparseCore>
 
@@ -35,6 +35,7 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -42,11 +43,10 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-template <typename NT, typename SolverTraits>
 class Laplace_layout
 {
   typedef std::uint32_t Index;
-  typedef Intrinsic_triangulation<NT> Triangulation;
+  typedef Intrinsic_triangulation<double> Triangulation;
 
 public:
   typedef std::complex<double> Complex;
@@ -61,8 +61,8 @@ public:
 
   // `corner` are those of a flat layout, of moderate size. Keeps references.
   Laplace_layout(const Triangulation& t, const std::vector<Complex>& corner, const Meta_polygon& polygon, const Texture_lattice& lattice,
-                 const std::vector<Index>& fixed, const SolverTraits& traits)
-    : t_(t), corner_(corner), polygon_(polygon), factor_(traits), number_(t.number_of_vertices(), t.null_index)
+                 const std::vector<Index>& fixed, std::unique_ptr<Factorization> factorization)
+    : t_(t), corner_(corner), polygon_(polygon), factor_(std::move(factorization)), number_(t.number_of_vertices(), t.null_index)
   {
     const std::vector<Lattice_coordinates<double> > zero(polygon.paths.size(), Lattice_coordinates<double>{{0, 0}});
     for(const auto& motion : polygon.values(zero))
@@ -88,12 +88,13 @@ public:
     if(number_of_free_ == 0)
       return true;
     const Eigen::SparseMatrix<double> lower = assemble();
-    for(double shift = 0; shift < 1e-2; shift = shift == 0 ? 1e-13 : 100 * shift)
+    const double first_shift = 1e-13, most = 1e-2; // relative to the diagonal: from a few hundred roundings to what would deform the layout visibly
+    for(double shift = 0; shift < most; shift = shift == 0 ? first_shift : 100 * shift)
     {
       Eigen::SparseMatrix<double> shifted = lower;
       for(int i = 0; i < int(shifted.rows()); ++i)
         shifted.coeffRef(i, i) *= 1 + shift;
-      if(factor_.factor(std::move(shifted)))
+      if(factor_->factor(std::move(shifted)))
         return true;
     }
     return false;
@@ -115,7 +116,7 @@ public:
           b[2 * number_[face.vertex[k]] + 1] += entry.imag();
         }
     }
-    if(number_of_free_ > 0 && !factor_.solve(b))
+    if(number_of_free_ > 0 && !factor_->solve(b))
       return {};
     std::vector<Complex> z(t_.number_of_vertices(), Complex(0, 0));
     for(Index v = 0; v < z.size(); ++v)
@@ -181,8 +182,9 @@ private:
     const Complex &x = face.opposite[0], &y = face.opposite[1];
     const double twice_area = x.real() * y.imag() - x.imag() * y.real();
     const double largest = (std::max)({std::norm(face.opposite[0]), std::norm(face.opposite[1]), std::norm(face.opposite[2])});
-    face.weight = largest > 0 ? 1 / (4 * (std::max)(std::abs(twice_area), 1e-12 * largest)) : 0;
-    face.is_positive = twice_area > 1e-12 * largest;
+    const double least = least_area * largest;
+    face.weight = largest > 0 ? 1 / (4 * (std::max)(std::abs(twice_area), least)) : 0;
+    face.is_positive = twice_area > least;
     return face;
   }
 
@@ -277,10 +279,13 @@ private:
     }
   }
 
+  // Twice the area of a triangle, over the square of its longest side: below this its digits are rounding, and it counts as if it had this area.
+  static constexpr double least_area = 1e-12;
+
   const Triangulation& t_;
   const std::vector<Complex>& corner_;
   const Meta_polygon& polygon_;
-  Factorization_by<SolverTraits> factor_;
+  std::unique_ptr<Factorization> factor_;
   std::vector<Complex> rotation_of_motion_;
   std::vector<Index> number_;               // by vertex: of those that are free
   std::vector<Index> fixed_number_;         // by vertex

@@ -13,8 +13,8 @@
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/meta_polygon.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/relaxation.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Meta_polygon.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Relaxation.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,238 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// One seamless parameterization of a mesh (section 6 of Springborn, Schroeder and Pinkall, 2008): the metric with its cones, its layout, and the layout
+// rectified.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_PARAMETERIZATION_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_PARAMETERIZATION_H
+
+#include <CGAL/Conformal_equivalence/Cone_placement.h>
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Flattening_report.h>
+#include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/report_cones.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Quantized_cone.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Rectification.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Rectified_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
+#include <CGAL/Conformal_equivalence/internal/solver_traits_of.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/place_cones.h>
+
+#include <CGAL/number_utils.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// What is asked of a seamless parameterization.
+struct Seamless_options
+{
+  double angle_quantum = CGAL_PI / 2; // radians
+  Rectification_options rectification;
+};
+
+// One seamless parameterization: the metric with its cones, its layout, and the layout rectified.
+template <typename TriangleMesh>
+class Seamless_parameterization
+{
+  typedef std::uint32_t Index;
+  typedef Flattening_report<TriangleMesh> Report;
+
+public:
+  Flattening<TriangleMesh> flattening;
+
+  Seamless_parameterization(Imported_mesh<TriangleMesh> mesh, const Seamless_options& options)
+    : flattening(std::move(mesh)), options_(options)
+  {}
+
+  template <typename NamedParameters>
+  void run(const NamedParameters& np)
+  {
+    const auto verify_nothing = [] {}; // what is judged is the layout that is rectified
+    flattening.run_with_metric(np, [&]
+    {
+      if(check())
+        find_metric(np);
+    }, verify_nothing);
+    if(bool(flattening.report))
+      rectify(make_factorization(solver_traits_of(np)));
+  }
+
+private:
+  // Cones place themselves unless they, or the angles of borders, are given.
+  template <typename NamedParameters>
+  static constexpr bool do_cones_place_themselves()
+  {
+    return !is_given<internal_np::conformal_cone_angle_t, NamedParameters>
+        && !is_given<internal_np::conformal_border_angle_t, NamedParameters>
+        && (is_given<internal_np::conformal_number_of_cones_t, NamedParameters>
+            || is_given<internal_np::conformal_maximum_u_t, NamedParameters>
+            || is_given<internal_np::conformal_maximum_area_distortion_t, NamedParameters>);
+  }
+
+  // ---- What can be asked for
+
+  // n of the quantum 2 pi / n; 0 if there is no such lattice
+  int symmetry() const
+  {
+    const double n = 2 * CGAL_PI / options_.angle_quantum, nearest = std::round(n);
+    return std::abs(n - nearest) < 1e-6 && nearest < 10 && Texture_lattice::exists(long(nearest)) ? int(nearest) : 0;
+  }
+
+  bool check()
+  {
+    Report& report = flattening.report;
+    if(report.topology.number_of_components != 1)
+      report.status = Status::WRONG_TOPOLOGY;
+    else if(symmetry() == 0)
+    {
+      report.status = Status::ANGLE_OUT_OF_RANGE;
+      report.amount = options_.angle_quantum;
+    }
+    else if(!(options_.rectification.maximum_distortion >= 1))
+      report.status = Status::INVALID_NUMBER;
+    return bool(report);
+  }
+
+  // ---- Metric
+
+  template <typename NamedParameters>
+  void find_metric(const NamedParameters& np)
+  {
+    if constexpr(do_cones_place_themselves<NamedParameters>())
+    {
+      Cone_options options = read_cone_options(np);
+      options.angle_quantum = options_.angle_quantum;
+      take(place_cones_with(flattening.mesh.triangulation, options, np));
+    }
+    else
+      flattening.find_metric(np, [&] { return check_cones(); });
+  }
+
+  void take(Cone_placement<double> placement)
+  {
+    placement_ = std::move(placement);
+    Conformal_conditions<double> conditions(flattening.mesh.triangulation);
+    Conformal_metric<double> metric = std::move(placement_.metric);
+    if(bool(placement_) || placement_.status == Status::BOUND_NOT_MET)
+      for(std::size_t i = 0; i < placement_.cones.size(); ++i)
+        conditions.prescribe_angle_sum(placement_.cones[i], placement_.angles[i]);
+    else
+    {
+      metric.status = placement_.status;
+      metric.amount = placement_.amount;
+    }
+    are_cones_placed_ = true;
+    flattening.take(std::move(metric), std::move(conditions));
+  }
+
+  // The cones given must have multiples of the quantum; those of free angle have none that is known.
+  bool check_cones()
+  {
+    std::vector<Index> wrong;
+    for(Index v : flattening.cones())
+      if(flattening.conditions().is_fixed(v) || !is_multiple(flattening.conditions().angle_sum(v)))
+        wrong.push_back(v);
+    if(wrong.empty())
+      return true;
+    Report& report = flattening.report;
+    report.status = Status::ANGLE_OUT_OF_RANGE;
+    const Index v = wrong.front();
+    report.amount = flattening.conditions().is_fixed(v) ? 0 : flattening.conditions().angle_sum(v).template radians<double>();
+    name_elements(flattening.mesh, wrong, {}, {}, report);
+    return false;
+  }
+
+  bool is_multiple(const Exact_angle<double>& angle) const
+  {
+    return angle.is_exact() && angle.units % (2 * Exact_angle<double>::units_of_pi / symmetry()) == 0;
+  }
+
+  // ---- Rectification
+
+  std::vector<Quantized_cone> quantized_cones() const
+  {
+    const long unit = 2 * Exact_angle<double>::units_of_pi / symmetry();
+    std::vector<Quantized_cone> result;
+    for(Index v : flattening.cones())
+      result.push_back({v, flattening.conditions().angle_sum(v).units / unit});
+    return result;
+  }
+
+  void rectify(std::unique_ptr<Factorization> factorization)
+  {
+    Report& report = flattening.report;
+    if(are_cones_placed_)
+      report_rounding(flattening.mesh, placement_, report);
+    const Stopwatch stopwatch;
+    try
+    {
+      const std::vector<Quantized_cone> cones = quantized_cones();
+      Rectification<double> rectification(flattening.mesh.triangulation, flattening.cut, flattening.layout, cones, Texture_lattice(symmetry()),
+                                          options_.rectification, std::move(factorization));
+      take(std::move(rectification.run()));
+    }
+    catch(const std::bad_alloc&)
+    {
+      report.status = Status::OUT_OF_MEMORY;
+    }
+    report.statistics.seconds.layout += stopwatch.seconds();
+    if(bool(report) && placement_.status == Status::BOUND_NOT_MET)
+    {
+      report.status = placement_.status;
+      report.amount = placement_.amount;
+    }
+  }
+
+  void take(Rectified_layout rectified)
+  {
+    Report& report = flattening.report;
+    if(rectified.status != Status::OK)
+    {
+      report.status = rectified.status;
+      report.amount = rectified.amount;
+      name_elements(flattening.mesh, {}, rectified.edges, rectified.faces, report);
+      if(rectified.status != Status::BOUND_NOT_MET)
+        return;
+    }
+    report.tiling = rectified.tiling;
+    for(std::size_t i = 0; i < report.cones.size(); ++i)
+      report.cones[i].lattice_point = rectified.cone_positions[i];
+    for(std::size_t i = 0; i < report.transitions.size(); ++i)
+    {
+      const Transition<double>& exact = rectified.layout.transitions[i];
+      report.transitions[i].rotation = exact.rotation;
+      report.transitions[i].translation = exact.translation;
+      report.transitions[i].quanta = rectified.quanta[i];
+      report.transitions[i].lattice_translation = rectified.translations[i];
+    }
+    report.lattices.clear();
+    flattening.layout = std::move(rectified.layout);
+  }
+
+  const Seamless_options options_;
+  Cone_placement<double> placement_;
+  bool are_cones_placed_ = false;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_PARAMETERIZATION_H

@@ -1,0 +1,79 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// How far maps of triangles are from being conformal: mean and largest quasi-conformal factors.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_MEAN_FACTOR_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_MEAN_FACTOR_H
+
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/conformal_distortion.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+struct Mean_factor
+{
+  double mean = 1, largest = 1;
+};
+
+// Of the triangle of the mesh.
+inline Triangle_frame given_frame(const Intrinsic_triangulation<double>& t, std::uint32_t f)
+{
+  return frame_from_lengths({{t.halfedge_length(3 * f + 2), t.halfedge_length(3 * f), t.halfedge_length(3 * f + 1)}});
+}
+
+// Of the triangle of a flat layout, which is given by the corners at halfedges.
+inline Triangle_frame plane_frame(const std::vector<std::complex<double> >& corner, std::uint32_t f)
+{
+  std::array<Space_vector, 3> e;
+  for(std::uint32_t k = 0; k < 3; ++k)
+  {
+    const std::complex<double> d = corner[3 * f + (k + 2) % 3] - corner[3 * f + (k + 1) % 3];
+    e[k] = {{d.real(), d.imag(), 0}};
+  }
+  return frame_from_edge_vectors(e);
+}
+
+// The corners of a face, as numbers of the plane that `corner(h)` gives.
+template <typename Corner>
+UV_corners uv_corners(Corner corner, std::uint32_t f)
+{
+  const std::complex<double> p = corner(3 * f), q = corner(3 * f + 1), r = corner(3 * f + 2);
+  return {{UV_point(p.real(), p.imag()), UV_point(q.real(), q.imag()), UV_point(r.real(), r.imag())}};
+}
+
+// Weighted by the areas in the mesh. Needles whose images have no area in the plane do not count.
+inline Mean_factor mean_factor(const std::vector<Face_distortion>& faces)
+{
+  Mean_factor result;
+  if(faces.empty())
+    return result;
+  const Scaled_number<double> total = total_area(faces, [](const Face_distortion& f) { return f.area; });
+  double excess = 0;
+  for(const Face_distortion& f : faces)
+  {
+    const double weight = f.area.scaled_to(total.exponent) / total.mantissa;
+    if(!(weight > 0) || std::isnan(f.factor))
+      continue;
+    excess += weight * (f.factor - 1);
+    result.largest = (std::max)(result.largest, f.factor);
+  }
+  result.mean = 1 + excess;
+  return result;
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_MEAN_FACTOR_H
