@@ -13,19 +13,13 @@
 
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/Common_refinement.h>
-#include <CGAL/Conformal_equivalence/compute_common_refinement.h>
-#include <CGAL/Conformal_equivalence/make_refined_mesh.h>
-#include <CGAL/Conformal_equivalence/triangulate_refinement.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/refined_output.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <boost/property_map/property_map.hpp>
-
-#include <cstdint>
-#include <utility>
 
 namespace CGAL {
 namespace Conformal_equivalence {
@@ -82,44 +76,18 @@ Flattening_report<TriangleMesh> flatten_refined(const TriangleMesh& tm,
   static_assert(internal::Check_halfedge_map<HalfedgeUVMap, RefinedMesh>::value);
   static_assert(internal::Check_pack<internal::Parameters_of_flatten, TriangleMesh, NamedParameters>::value);
   static_assert(internal::Check_pack<internal::Parameters_of_refined_mesh, RefinedMesh, NamedParametersRefined>::value);
-  using parameters::get_parameter;
-  using parameters::is_default_parameter;
   const internal::Stopwatch stopwatch;
   internal::Flattening<TriangleMesh> flattening{internal::import_charts(tm, np)};
   flattening.report.statistics.seconds.import = stopwatch.seconds();
   flattening.run_with_refinement(np, true);
-  Flattening_report<TriangleMesh>& report = flattening.report;
-
-  Refined_mesh_elements<RefinedMesh> elements;
-  Common_refinement<double> triangles;
-  if(bool(report))
+  if(bool(flattening.report))
   {
-    triangles = triangulate_refinement(flattening.refinement);
-    flattening.judge(triangles);
+    const auto parts = internal::make_mesh_of_parts(flattening, refined, uv, np, np_refined);
+    if(bool(flattening.report))
+      internal::write_refined_output(flattening, parts, np, np_refined);
   }
-  if(bool(report))
-  {
-    elements = make_refined_mesh(flattening.mesh, triangles, refined, uv, np, np_refined);
-    if(elements.faces.empty())
-    {
-      triangles = flattening.refinement;
-      elements = make_refined_mesh(flattening.mesh, triangles, refined, uv, np, np_refined);
-    }
-    if(elements.faces.empty())
-      report.status = Status::NOT_REPRESENTABLE;
-  }
-  if(bool(report))
-  {
-    internal::write_metric(flattening, np);
-    internal::write_seam(flattening, np);
-    if constexpr(!is_default_parameter<NamedParametersRefined, internal_np::conformal_input_face_t>::value)
-      for(std::uint32_t f = 0; f < triangles.number_of_faces(); ++f)
-        put(get_parameter(np_refined, internal_np::conformal_input_face), elements.faces[f], flattening.mesh.face(triangles.input_face[f]));
-    if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_common_refinement_t>::value)
-      get_parameter(np, internal_np::conformal_common_refinement).get() = std::move(flattening.refinement);
-  }
-  internal::write_report(report, np);
-  return report;
+  internal::write_report(flattening.report, np);
+  return flattening.report;
 }
 
 } // namespace Conformal_equivalence

@@ -11,7 +11,8 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_RECTANGLE_CORNERS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_RECTANGLE_CORNERS_H
 
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
+#include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
 #include <CGAL/Conformal_equivalence/options.h>
@@ -27,11 +28,8 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-struct Rectangle_corners
+struct Rectangle_corners : public Outcome
 {
-  Status status = Status::OK;
-  double amount = 0;
-  std::vector<std::uint32_t> vertices;        // at fault
   std::array<std::uint32_t, 4> corners{};     // in their order along the border
 };
 
@@ -118,12 +116,18 @@ private:
   }
 
   // There are many maps to compare. What is not found soon, or not on this triangulation, is none of the best.
-  static auto quickly() { return parameters::retriangulation(Retriangulation::NEVER).number_of_iterations(maximum_number_of_iterations_); }
+  static Solver_options quickly()
+  {
+    Solver_options result;
+    result.retriangulation = Retriangulation::NEVER;
+    result.number_of_iterations = maximum_number_of_iterations_;
+    return result;
+  }
 
   // pi - angle sum at the border of the natural map; of the surface itself if there is no such map
   std::vector<double> natural_turning() const
   {
-    const Conformal_metric<double> metric = compute_conformal_metric(t_, Conformal_conditions<double>(t_), quickly());
+    const Conformal_metric<double> metric = Conformal_metric_solver<double>(t_).solve(Conformal_conditions<double>(t_), quickly());
     const std::vector<double> sums = angle_sums(metric ? apply_log_scale_factors(t_, metric.log_scale_factors) : t_);
     std::vector<double> turning;
     for(Index v : border_)
@@ -220,7 +224,9 @@ private:
       conditions.prescribe_angle_sum(v, Exact_angle<double>::pi_times(1));
     for(Index a : c)
       conditions.prescribe_angle_sum(border_[candidates_[a]], Exact_angle<double>::pi_times(1, 2));
-    const Conformal_metric<double> metric = solver_.solve(conditions, quickly().gradient_tolerance(gradient_tolerance_));
+    Solver_options options = quickly();
+    options.gradient_tolerance = gradient_tolerance_;
+    const Conformal_metric<double> metric = solver_.solve(conditions, options);
     return metric ? dirichlet_energy(t_, metric.log_scale_factors) : std::numeric_limits<double>::infinity();
   }
 
