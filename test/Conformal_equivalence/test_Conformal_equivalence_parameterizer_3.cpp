@@ -25,6 +25,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <boost/property_map/property_map.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -46,6 +48,12 @@ typedef CE::Flattening_report<Mesh>                            Report;
 typedef SMP::Conformal_equivalence_parameterizer_3<Mesh>       Parameterizer;
 
 const double unwritten = 77;
+const double epsilon = std::numeric_limits<double>::epsilon();
+
+// How far two layouts of about size 1 may be apart whose metrics differ by rounding: each triangle on the way from the first one
+// adds a step whose two coordinates are rounded.
+template <typename Any_mesh>
+double layout_rounding(const Any_mesh& mesh) { return 2 * epsilon * double(num_faces(mesh)); }
 
 // A mesh with the maps that parameterize() writes.
 struct Maps
@@ -87,7 +95,7 @@ void check_same_as_flatten(Maps& m)
   BOOST_TEST((report.status == expected.status));
   BOOST_TEST_REQUIRE((error == SMP::OK), CE::message(report));
   BOOST_TEST(report.statistics.number_of_iterations == expected.statistics.number_of_iterations);
-  BOOST_TEST(report.statistics.residual <= 1e-12);
+  BOOST_TEST(report.statistics.residual <= 1e-12); // the default of gradient_tolerance
   for(Halfedge h : halfedges(m.sm))
     BOOST_TEST((corner[h] == m.uv[target(h, m.sm)]));
   BOOST_TEST(std::equal(u.begin(), u.end(), m.u.begin()));
@@ -134,12 +142,12 @@ BOOST_AUTO_TEST_CASE(what_the_fixed_triangulation_cannot_do, * needs_mesh("cylin
       BOOST_TEST(!report.faces.empty());
       BOOST_TEST(m.is_untouched());
 
-      // by default edges are flipped; then straight triangles will do, or are named
+      // by default edges are flipped; on all of these, straight triangles will do then
       const SMP::Error_code flipped = SMP::parameterize(m.sm, Parameterizer(params::flattening_report(std::ref(report))), m.bhd, m.uv);
-      BOOST_TEST((flipped == CE::to_error_code(report.status)));
-      BOOST_TEST((flipped == SMP::OK || report.status == CE::Status::NOT_INJECTIVE), CE::message(report));
+      BOOST_TEST((flipped == SMP::OK));
+      BOOST_TEST((report.status == CE::Status::OK), CE::message(report));
       BOOST_TEST(report.statistics.number_of_flips > 0u);
-      BOOST_TEST((flipped == SMP::OK) == report.faces.empty());
+      BOOST_TEST(report.faces.empty());
     }
 }
 
@@ -188,7 +196,7 @@ BOOST_AUTO_TEST_CASE(one_of_two_components)
     BOOST_TEST(is_parameterized[v] == is_left(v));
     BOOST_TEST((m.u[v] == unwritten) == !is_left(v));
     if(is_left(v))
-      BOOST_TEST(plane_distance(m.uv[v], alone.uv[Vertex(v.idx() - 1)]) <= 1e-13);
+      BOOST_TEST(plane_distance(m.uv[v], alone.uv[Vertex(v.idx() - 1)]) <= layout_rounding(alone.sm));
     else
       BOOST_TEST((m.uv[v] == Point_2(unwritten, unwritten)));
   }
@@ -238,7 +246,18 @@ BOOST_AUTO_TEST_CASE(errors)
   soup.points[7][2] = std::numeric_limits<double>::quiet_NaN();
   refused(soup, CE::Status::INVALID_NUMBER);
 
+  for(const Soup& closed : { icosphere(1), torus(8, 6) }) // which have no border: longest_border() returns none
+  {
+    Maps m(closed);
+    BOOST_TEST((m.bhd == Mesh::null_halfedge()));
+    refused(closed, CE::Status::WRONG_TOPOLOGY);
+    BOOST_TEST((Parameterizer().parameterize(m.sm, m.bhd, m.uv, boost::dummy_property_map(), boost::dummy_property_map())
+                == SMP::ERROR_NO_TOPOLOGICAL_DISC));
+  }
+
   Maps m(hill(4, .3));
+  BOOST_TEST((SMP::parameterize(m.sm, Parameterizer(), Mesh::null_halfedge(), m.uv) == SMP::ERROR_NO_TOPOLOGICAL_DISC));
+  BOOST_TEST(m.is_untouched());
   Report report;
   const auto angle = m.sm.add_property_map<Vertex, double>("v:angle", CGAL_PI).first;
   BOOST_TEST((SMP::parameterize(m.sm, Parameterizer(params::border_angle_map(angle).flattening_report(std::ref(report))
@@ -246,6 +265,34 @@ BOOST_AUTO_TEST_CASE(errors)
                                 m.bhd, m.uv) == SMP::ERROR_WRONG_PARAMETER));
   BOOST_TEST((report.status == CE::Status::ANGLE_OUT_OF_RANGE));
   BOOST_TEST(m.is_untouched());
+}
+
+// A chain may begin with any parameter of the package's own namespace, CGAL's and ours may be joined, and a pack
+// of CGAL's alone will do.
+BOOST_AUTO_TEST_CASE(chains_that_begin_with_parameters_of_CGAL)
+{
+  Maps m(hill(5, .5)), own(hill(5, .5));
+  Report report;
+  for(Vertex v : vertices(m.sm)) // half as large, but not by the points that are given
+    m.sm.point(v) = CGAL::ORIGIN + .5 * (m.sm.point(v) - CGAL::ORIGIN);
+  BOOST_TEST_REQUIRE((SMP::parameterize(m.sm, Parameterizer(params::vertex_point_map(own.sm.points())), m.bhd, m.uv) == SMP::OK));
+  BOOST_TEST_REQUIRE((SMP::parameterize(own.sm, Parameterizer(), own.bhd, own.uv) == SMP::OK));
+  BOOST_TEST(std::equal(own.uv.begin(), own.uv.end(), m.uv.begin()));
+
+  const auto begun = CE::named_parameters::vertex_point_map(own.sm.points()).log_scale_factor_map(m.u).number_of_iterations(50)
+                                          .flattening_report(std::ref(report));
+  BOOST_TEST_REQUIRE((SMP::parameterize(m.sm, Parameterizer(begun), m.bhd, m.uv) == SMP::OK));
+  BOOST_TEST(std::equal(own.uv.begin(), own.uv.end(), m.uv.begin()));
+  BOOST_TEST(report.topology.is_disk());
+  const std::vector<double> u(m.u.begin(), m.u.end());
+  BOOST_TEST(*std::min_element(u.begin(), u.end()) < 0);
+
+  const auto joined = CE::combine_named_parameters(params::vertex_point_map(own.sm.points()), params::number_of_iterations(50),
+                                                   params::log_scale_factor_map(own.u)).projective_weight_map(m.weight);
+  BOOST_TEST_REQUIRE((SMP::parameterize(m.sm, Parameterizer(joined), m.bhd, m.uv) == SMP::OK));
+  BOOST_TEST(std::equal(own.uv.begin(), own.uv.end(), m.uv.begin()));
+  BOOST_TEST(std::equal(u.begin(), u.end(), own.u.begin()));
+  BOOST_TEST(*std::max_element(m.weight.begin(), m.weight.end()) == 1);
 }
 
 // Maps go into the parameterizer whose types its class does not know; it can be used again and again.
@@ -274,7 +321,9 @@ BOOST_AUTO_TEST_CASE(conditions_and_results_through_the_constructor)
     least = (std::min)(least, scale);
     largest = (std::max)(largest, scale);
   }
-  BOOST_TEST(largest / least - 1 <= 1e-12);
+  // the edges are longer than a twelfth of the square: their ends, each rounded in two coordinates by epsilon at most, change
+  // their lengths by 34 epsilon relatively, and the quotient of two of them by twice that
+  BOOST_TEST(largest / least - 1 <= 68 * epsilon);
 
   const std::vector<Point_2> before(m.uv.begin(), m.uv.end());
   Parameterizer copy(parameterizer);
@@ -307,7 +356,7 @@ BOOST_AUTO_TEST_CASE(own_solver)
   const SMP::Conformal_equivalence_parameterizer_3<Mesh, Own_solver_traits> parameterizer;
   BOOST_TEST((SMP::parameterize(own.sm, parameterizer, own.bhd, own.uv) == SMP::OK));
   for(Vertex v : vertices(m.sm))
-    BOOST_TEST(plane_distance(m.uv[v], own.uv[v]) <= 1e-13);
+    BOOST_TEST(plane_distance(m.uv[v], own.uv[v]) <= layout_rounding(m.sm));
 }
 
 BOOST_AUTO_TEST_CASE(visitor_stops)
@@ -467,7 +516,8 @@ BOOST_AUTO_TEST_CASE(closed_mesh_along_a_seam)
   const auto expected_uv = m.sm.add_property_map<Halfedge, Point_2>("h:uv").first;
   const auto corners = m.sm.add_property_map<Halfedge, Point_2>("h:corners").first;
   const auto expected_u = m.sm.add_property_map<Vertex, double>("v:expected_u").first;
-  const Report expected = CE::flatten(m.sm, expected_uv, params::cone_angle_map(m.angle).edge_is_seam_map(m.seam).log_scale_factor_map(expected_u));
+  const Report expected = CE::flatten(m.sm, expected_uv,
+                                      params::cone_angle_map(m.angle).edge_is_seam_map(m.seam).log_scale_factor_map(expected_u));
   BOOST_TEST_REQUIRE(bool(expected), CE::message(expected));
   BOOST_TEST_REQUIRE((m.parameterize() == SMP::OK), CE::message(m.report));
   BOOST_TEST(std::equal(m.u.begin(), m.u.end(), expected_u.begin()));
@@ -508,13 +558,17 @@ BOOST_AUTO_TEST_CASE(the_seam_as_border)
   BOOST_TEST_REQUIRE(bool(whole), CE::message(whole));
   for(Seam_halfedge h : halfedges(cut_open))
     if(!is_border(h, cut_open))
-      BOOST_TEST(plane_distance(m.uv[target(h, cut_open)], corner[h]) <= 1e-12);
+      BOOST_TEST(plane_distance(m.uv[target(h, cut_open)], corner[h]) <= layout_rounding(m.sm));
   for(Edge e : edges(m.sm))
     if(m.seam[e])
     {
       BOOST_TEST(m.u[source(e, m.sm)] == 0);
       for(Halfedge h : { halfedge(e, m.sm), opposite(halfedge(e, m.sm), m.sm) })
-        BOOST_TEST(std::abs(uv_length(m.sm, corner, h) - std::sqrt(CGAL::squared_distance(m.sm.point(source(h, m.sm)), m.sm.point(target(h, m.sm))))) <= 1e-13);
+      {
+        // u is 0: the length of the input, but for the rounding of two points, whose coordinates are below 4
+        const double length = std::sqrt(CGAL::squared_distance(m.sm.point(source(h, m.sm)), m.sm.point(target(h, m.sm))));
+        BOOST_TEST(std::abs(uv_length(m.sm, corner, h) - length) <= 4 * 4 * epsilon);
+      }
     }
 }
 
