@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // The number type of MPFR, precision chosen at run time: everything that takes any number
-// type, against computations by other means at higher precision. (The only test that needs MPFR.)
+// type, against computations by other means at higher precision.
 
 #define BOOST_TEST_MODULE test_multiprecision
 #include "include/boost_test.h"
@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Wide_factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_newton_step.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 #include <CGAL/Conformal_equivalence/map_to_sphere.h>
@@ -24,6 +25,7 @@
 
 #include <boost/multiprecision/mpfr.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -120,6 +122,56 @@ void check_Lobachevsky(int bits, int level)
 }
 
 } // namespace
+
+// A grid of the plane with weights that differ by 40 orders of magnitude, and some edges twice.
+BOOST_AUTO_TEST_CASE(factorization_of_a_matrix_that_double_cannot_hold)
+{
+  const Working_precision precision(500);
+  const std::uint32_t width = 12, n = width * width;
+  std::vector<CEi::Matrix_position> lower;
+  std::vector<Real> values, diagonal(n, Real(1e-30)), right(n), product(n, Real(0));
+  const auto join = [&](std::uint32_t i, std::uint32_t j)
+  {
+    const Real weight = Real(std::pow(10., int((i * 37 + j * 11) % 41) - 20)) / 3;
+    lower.emplace_back(j, i);
+    values.push_back(-weight);
+    diagonal[i] += weight;
+    diagonal[j] += weight;
+  };
+  for(std::uint32_t i = 0; i < n; ++i)
+  {
+    if(i % width + 1 < width)
+      join(i, i + 1);
+    if(i + width < n)
+      join(i, i + width);
+    if(i % 5 == 0 && i + 1 < n && i % width + 1 < width)
+      join(i, i + 1);
+    right[i] = Real(int(i % 7) - 3);
+  }
+  for(std::uint32_t i = 0; i < n; ++i)
+  {
+    lower.emplace_back(i, i);
+    values.push_back(diagonal[i]);
+  }
+  const CEi::Wide_factorization<Real> factor(n, lower, values);
+  BOOST_TEST_REQUIRE(factor.is_regular());
+  const std::vector<Real> x = factor.solve(right);
+  for(std::size_t k = 0; k < lower.size(); ++k)
+  {
+    product[lower[k].first] += values[k] * x[lower[k].second];
+    if(lower[k].first != lower[k].second)
+      product[lower[k].second] += values[k] * x[lower[k].first];
+  }
+  Real largest(0);
+  for(const Real& x_i : x)
+    largest = (std::max)(largest, Real(abs(x_i)));
+  for(std::uint32_t i = 0; i < n; ++i) // rounding, of a backward stable method
+    BOOST_CHECK(abs(product[i] - right[i]) <= ldexp(Real(1), -480) * largest * diagonal[i]);
+
+  // a row without anything on the diagonal
+  const CEi::Wide_factorization<Real> singular(2, {{0, 0}, {1, 1}}, {Real(1), Real(0)});
+  BOOST_TEST(!singular.is_regular());
+}
 
 BOOST_AUTO_TEST_CASE(precision_is_found)
 {

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 /// \file multiprecision.h
-/// Numbers with as many bits as wanted, for everything here that is a template on the number type. The only header, with
-/// those that include it, that needs MPFR.
+/// Numbers with as many bits as wanted, for everything here that is a template on the number type.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_MULTIPRECISION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_MULTIPRECISION_H

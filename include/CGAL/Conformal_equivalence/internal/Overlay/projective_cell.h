@@ -9,6 +9,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_OVERLAY_PROJECTIVE_CELL_H
 
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/sphere_predicates.h>
 
 #include <algorithm>
 #include <array>
@@ -26,12 +27,6 @@ struct Cell_corner
   std::array<NT, 2> uv;              // in the plane
   Number weight;                     // w
 };
-
-template <typename Number>
-Number determinant_of_columns(const std::array<Number, 3>& a, const std::array<Number, 3>& b, const std::array<Number, 3>& c)
-{
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
 
 // Whether the point is in the convex polygon with the corners [first, last), or on its border: exactly for `double`.
 // A polygon that has lost its area in rounding holds the points of a segment, if any.
@@ -121,7 +116,7 @@ public:
       for_each_triangle(cell, [&](const Triangle& t)
       {
         const std::array<Number, 3> &p = t[0]->barycentric, &q = t[1]->barycentric, &r = t[2]->barycentric;
-        best.offer(cell, t, {{ determinant_of_columns(b, q, r), determinant_of_columns(b, r, p), determinant_of_columns(b, p, q) }});
+        best.offer(cell, t, {{ determinant(b, q, r), determinant(b, r, p), determinant(b, p, q) }});
       });
     return best.point;
   }

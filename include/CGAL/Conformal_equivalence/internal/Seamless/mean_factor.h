@@ -49,7 +49,7 @@ template <typename Corner>
 UV_corners uv_corners(Corner corner, std::uint32_t f)
 {
   const std::complex<double> p = corner(3 * f), q = corner(3 * f + 1), r = corner(3 * f + 2);
-  return {{UV_point(p.real(), p.imag()), UV_point(q.real(), q.imag()), UV_point(r.real(), r.imag())}};
+  return {{ {{p.real(), p.imag()}}, {{q.real(), q.imag()}}, {{r.real(), r.imag()}} }};
 }
 
 // Weighted by the areas in the mesh. Needles whose images have no area in the plane do not count.

@@ -7,13 +7,10 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_WIDE_NEWTON_STEP_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_WIDE_NEWTON_STEP_H
 
-#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
-#include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Wide_factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
-
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cstddef>
@@ -24,15 +21,13 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The lower half of A (see Laplacian_solver.h) for the scale factors s^2; rows without weight, and those of held vertices, are
-// those of the identity.
-template <typename Surface, typename Wide>
-Eigen::SparseMatrix<Wide> wide_matrix(const Surface& t, const Edge_graph& graph, const std::vector<Wide>& s)
+// A (see Edge_graph.h) for the weights `w` by edge, factorized; rows without weight, and those of held vertices, are those of the identity.
+template <typename Wide>
+Wide_factorization<Wide> factorize_wide_matrix(const Edge_graph& graph, const std::vector<Wide>& w)
 {
   typedef std::uint32_t Index;
-  const std::vector<Wide> w = wide_weights<Wide>(t, s);
-  std::vector<Wide> diagonal(graph.number_of_free, Wide(0));
-  std::vector<Eigen::Triplet<Wide> > entries;
+  std::vector<Wide> diagonal(graph.number_of_free, Wide(0)), values;
+  std::vector<Matrix_position> lower;
   const auto is_unknown = [&](Index v) { return graph.is_free(v) && !graph.is_held(v); };
   for(std::size_t e = 0; e < graph.ends.size(); ++e)
   {
@@ -43,15 +38,17 @@ Eigen::SparseMatrix<Wide> wide_matrix(const Surface& t, const Edge_graph& graph,
     for(const Index v : {i, j})
       if(is_unknown(v))
         diagonal[graph.free_index[v]] += half;
-    if(is_unknown(i) && is_unknown(j))
-      entries.emplace_back(int((std::max)(graph.free_index[i], graph.free_index[j])),
-                           int((std::min)(graph.free_index[i], graph.free_index[j])), Wide(-half));
+    if(!is_unknown(i) || !is_unknown(j))
+      continue;
+    lower.emplace_back((std::max)(graph.free_index[i], graph.free_index[j]), (std::min)(graph.free_index[i], graph.free_index[j]));
+    values.push_back(-half);
   }
   for(Index i = 0; i < diagonal.size(); ++i)
-    entries.emplace_back(int(i), int(i), diagonal[i] > 0 ? diagonal[i] : Wide(1));
-  Eigen::SparseMatrix<Wide> a(int(graph.number_of_free), int(graph.number_of_free));
-  a.setFromTriplets(entries.begin(), entries.end());
-  return a;
+  {
+    lower.emplace_back(i, i);
+    values.push_back(diagonal[i] > 0 ? diagonal[i] : Wide(1));
+  }
+  return Wide_factorization<Wide>(Index(graph.number_of_free), lower, values);
 }
 
 // Multiplies `s` by e^{d / 2} for the step d. Returns whether the matrix could be factorized.
@@ -59,16 +56,14 @@ template <typename Surface, typename Wide>
 bool add_wide_newton_step(const Surface& t, const Edge_graph& graph, const Scaled_vector& residual, std::vector<Wide>& s)
 {
   using std::ldexp;
-  typedef Eigen::SparseMatrix<Wide> Matrix;
-  typedef Eigen::Matrix<Wide, Eigen::Dynamic, 1> Vector;
-  const Eigen::SimplicialLDLT<Matrix> factor(wide_matrix(t, graph, s));
-  if(factor.info() != Eigen::Success)
+  const Wide_factorization<Wide> factor = factorize_wide_matrix(graph, wide_weights<Wide>(t, s));
+  if(!factor.is_regular())
     return false;
-  Vector right(graph.number_of_free);
+  std::vector<Wide> right(graph.number_of_free, Wide(0));
   for(std::uint32_t v = 0; v < s.size(); ++v)
-    if(graph.is_free(v))
-      right[graph.free_index[v]] = graph.is_held(v) ? Wide(0) : Wide(residual.entries[v]);
-  const Vector solution = factor.solve(right);
+    if(graph.is_free(v) && !graph.is_held(v))
+      right[graph.free_index[v]] = Wide(residual.entries[v]);
+  const std::vector<Wide> solution = factor.solve(right);
   for(std::uint32_t v = 0; v < s.size(); ++v)
     if(graph.is_free(v) && !graph.is_held(v))
     {
@@ -81,17 +76,5 @@ bool add_wide_newton_step(const Surface& t, const Edge_graph& graph, const Scale
 } // namespace internal
 } // namespace Conformal_equivalence
 } // namespace CGAL
-
-namespace Eigen {
-
-template <>
-struct NumTraits<CGAL::Conformal_equivalence::internal::Double_double>
-  : GenericNumTraits<CGAL::Conformal_equivalence::internal::Double_double>
-{
-  typedef CGAL::Conformal_equivalence::internal::Double_double Real, NonInteger, Nested, Literal;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 2, AddCost = 20, MulCost = 10 };
-};
-
-} // namespace Eigen
 
 #endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_WIDE_NEWTON_STEP_H

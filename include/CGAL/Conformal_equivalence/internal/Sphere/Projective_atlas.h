@@ -366,7 +366,7 @@ private:
       const std::array<double, 3> x = place(3 * std::size_t(part) + k);
       p[k] = {{ Wide_number(x[0]), Wide_number(x[1]), Wide_number(x[2]) }};
     }
-    const Wide_vector d = {{ determinant_of_columns(b, p[1], p[2]), determinant_of_columns(p[0], b, p[2]), determinant_of_columns(p[0], p[1], b) }};
+    const Wide_vector d = {{ determinant(b, p[1], p[2]), determinant(p[0], b, p[2]), determinant(p[0], p[1], b) }};
     const Wide_number sum = d[0] + d[1] + d[2];
     if(!(sum > 0))
       return {{ Wide_number(-(std::numeric_limits<double>::max)()), Wide_number(0), Wide_number(0) }};

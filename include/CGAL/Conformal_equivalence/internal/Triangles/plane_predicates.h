@@ -6,7 +6,6 @@
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
-#include <CGAL/Conformal_equivalence/internal/Numbers/Exact_product_sum.h>
 
 #include <CGAL/enum.h>
 
@@ -21,34 +20,18 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-template <typename NT>
-bool has_finite_coordinates(const std::array<NT, 2>& z)
+template <typename NT, std::size_t dimension>
+bool has_finite_coordinates(const std::array<NT, dimension>& p)
 {
-  return std::isfinite(static_cast<double>(z[0])) && std::isfinite(static_cast<double>(z[1]));
-}
-
-// Adds the product of two sums of two `double`, or subtracts it.
-inline void add_product(const Double_double& a, const Double_double& b, double sign, Exact_product_sum& sum)
-{
-  for(double x : {a.hi, a.lo})
-    for(double y : {b.hi, b.lo})
-      sum.add_product(sign * x, y);
+  return std::all_of(p.begin(), p.end(), [](const NT& x) { return std::isfinite(static_cast<double>(x)); });
 }
 
 // Which way one turns at q on the way from p over q to r: exactly. \pre the coordinates are finite
-inline Orientation exact_turn(const std::array<Double_double, 2>& p, const std::array<Double_double, 2>& q,
-                              const std::array<Double_double, 2>& r)
+template <typename NT>
+Orientation exact_turn(const std::array<NT, 2>& p, const std::array<NT, 2>& q, const std::array<NT, 2>& r)
 {
-  Exact_product_sum sum; // (q - p) x (r - p), multiplied out, where p x p vanishes
-  const auto add_cross_product = [&](const std::array<Double_double, 2>& a, const std::array<Double_double, 2>& b)
-  {
-    add_product(a[0], b[1], 1, sum);
-    add_product(a[1], b[0], -1, sum);
-  };
-  add_cross_product(p, q);
-  add_cross_product(q, r);
-  add_cross_product(r, p);
-  return Orientation(sum.sign());
+  const Exact_number x = exact_number(p[0]), y = exact_number(p[1]);
+  return ((exact_number(q[0]) - x) * (exact_number(r[1]) - y) - (exact_number(q[1]) - y) * (exact_number(r[0]) - x)).sign();
 }
 
 // The same for `double`, where the determinant as computed nearly always tells: its error is less than two units in the last
@@ -60,8 +43,7 @@ inline Orientation turn(const std::array<double, 2>& p, const std::array<double,
   const double least_size = 1e-290, largest_size = 1e300; // outside of them the bound may not hold, for underflow or overflow
   if(size > least_size && size < largest_size && std::abs(left - right) > error)
     return left > right ? LEFT_TURN : RIGHT_TURN;
-  const auto wide = [](const std::array<double, 2>& z) { return std::array<Double_double, 2>{{ z[0], z[1] }}; };
-  return exact_turn(wide(p), wide(q), wide(r));
+  return exact_turn(p, q, r);
 }
 
 // Whether p, q, r turn left: exactly for `double` ...

@@ -6,9 +6,9 @@
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
-#include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/enum.h>
 
 #include <algorithm>
 #include <array>
@@ -20,12 +20,6 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-template <typename NT>
-bool is_finite_vector(const std::array<NT, 3>& p)
-{
-  return std::isfinite(static_cast<double>(p[0])) && std::isfinite(static_cast<double>(p[1])) && std::isfinite(static_cast<double>(p[2]));
-}
 
 template <typename NT>
 NT determinant(const std::array<NT, 3>& p, const std::array<NT, 3>& q, const std::array<NT, 3>& r)
@@ -43,34 +37,38 @@ double determinant_bound(const std::array<NT, 3>& p, const std::array<NT, 3>& q,
   return result;
 }
 
+// The sign of the determinant: exactly, by the filter as far as it goes. Its error is at most `unit` times the bound above: the
+// errors of its five roundings, in whatever way numbers are rounded. \pre the coordinates are finite
+template <typename NT>
+Sign exact_determinant_sign(const std::array<NT, 3>& p, const std::array<NT, 3>& q, const std::array<NT, 3>& r, double unit)
+{
+  const double value = static_cast<double>(determinant(p, q, r)), bound = unit * determinant_bound(p, q, r);
+  if(std::abs(value) > bound && bound > 1e-250)
+    return value > 0 ? POSITIVE : NEGATIVE;
+  const auto exact = [](const std::array<NT, 3>& x)
+    { return std::array<Exact_number, 3>{{ exact_number(x[0]), exact_number(x[1]), exact_number(x[2]) }}; };
+  return determinant(exact(p), exact(q), exact(r)).sign();
+}
+
 // Whether p, q, r are counterclockwise on a sphere around the origin, seen from outside: exactly for `double` ...
 inline bool is_counterclockwise(const std::array<double, 3>& p, const std::array<double, 3>& q, const std::array<double, 3>& r)
 {
-  typedef CGAL::Exact_predicates_inexact_constructions_kernel Kernel;
-  if(!is_finite_vector(p) || !is_finite_vector(q) || !is_finite_vector(r))
-    return false;
-  const auto point = [](const std::array<double, 3>& x) { return Kernel::Point_3(x[0], x[1], x[2]); };
-  return CGAL::orientation(Kernel::Point_3(0, 0, 0), point(p), point(q), point(r)) == CGAL::POSITIVE;
+  return has_finite_coordinates(p) && has_finite_coordinates(q) && has_finite_coordinates(r)
+         && exact_determinant_sign(p, q, r, 2e-15) == POSITIVE;
 }
 
 // ... and for pairs of them;
 inline bool is_counterclockwise(const std::array<Double_double, 3>& p, const std::array<Double_double, 3>& q, const std::array<Double_double, 3>& r)
 {
-  if(!is_finite_vector(p) || !is_finite_vector(q) || !is_finite_vector(r))
-    return false;
-  const double value = static_cast<double>(determinant(p, q, r)), bound = 1e-29 * determinant_bound(p, q, r);
-  if(std::abs(value) > bound && bound > 1e-250)
-    return value > 0;
-  const auto exact = [](const std::array<Double_double, 3>& x)
-    { return std::array<Exact_number, 3>{{ exact_number(x[0]), exact_number(x[1]), exact_number(x[2]) }}; };
-  return determinant(exact(p), exact(q), exact(r)) > 0;
+  return has_finite_coordinates(p) && has_finite_coordinates(q) && has_finite_coordinates(r)
+         && exact_determinant_sign(p, q, r, 1e-29) == POSITIVE;
 }
 
 // for other numbers `true` only if that is certain.
 template <typename NT>
 bool is_counterclockwise(const std::array<NT, 3>& p, const std::array<NT, 3>& q, const std::array<NT, 3>& r)
 {
-  if(!is_finite_vector(p) || !is_finite_vector(q) || !is_finite_vector(r))
+  if(!has_finite_coordinates(p) || !has_finite_coordinates(q) || !has_finite_coordinates(r))
     return false;
   return determinant(p, q, r) > NT(16 * std::numeric_limits<NT>::epsilon() * determinant_bound(p, q, r));
 }
