@@ -152,7 +152,7 @@ void check_parts(const Triangulation& t, const Refinement& r, const Locator& loc
     // inside of a part that is not too thin it is clear which part it is
     const Place p = CE::input_barycentric(t, r, f, first), q = CE::input_barycentric(t, r, f, first + 1),
                 s = CE::input_barycentric(t, r, f, first + 2);
-    if(CE::internal::determinant_of_columns(p, q, s) > 1e-9)
+    if(CE::internal::determinant(p, q, s) > 1e-9)
       BOOST_TEST(map.layout_point(centre).flat_face == r.flat_face[f]);
   }
 }
