@@ -9,6 +9,8 @@
 
 #include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
 
+#include <Eigen/LU>
+
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 

@@ -38,8 +38,8 @@ struct Cone_placement
   Conformal_metric<NT> metric;             ///< with these angle sums, and u = 0 on borders
   double maximum_log_scale_factor = 0;     ///< the largest |u| of `metric`
 
-  /// the largest factor, or its inverse, by which `metric` scales areas relative to the total area: of its triangles; where edges were flipped, of the
-  /// surroundings of vertices, e^{2u}. 1 if there is no metric
+  /// the largest factor, or its inverse, by which `metric` scales areas relative to the total area: of its triangles; where edges were flipped, of
+  /// the surroundings of vertices, e^{2u}. 1 if there is no metric
   double area_distortion = 1;
   std::size_t number_of_sweeps = 0;        ///< of the concurrent optimization
   std::size_t number_of_moves = 0;         ///< of single cones to vertices nearby that made it better

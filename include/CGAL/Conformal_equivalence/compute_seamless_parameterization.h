@@ -44,25 +44,27 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 
 /// \ingroup PkgConformalEquivalenceDoors
 ///
-/// makes a seamless parameterization of a disk or sphere: a layout with cones at points of a lattice, in which the two sides of every seam edge differ by
-/// a symmetry of the lattice. A checkerboard pattern, or any other texture with the symmetries of the lattice, then covers the surface without a
-/// visible seam; so do the tiles of a quadrangulation.
+/// makes a seamless parameterization of a disk or sphere: a layout with cones at points of a lattice, in which the two sides of every seam edge
+/// differ by a symmetry of the lattice. A checkerboard pattern, or any other texture with the symmetries of the lattice, then covers the surface
+/// without a visible seam; so do the tiles of a quadrangulation.
 ///
 ///  - *Cones* have multiples of the `angle_quantum` 2 pi / n for their angle sums. They place themselves, see `place_cones()`, or are given.
-///  - The conformally equivalent flat metric is laid out, as by `flatten()`. The motions across the seam are rotations by multiples of 2 pi / n, with some
-///    translations; the cones lie where they happen to.
-///  - *Rectification*: of all positions of the cones in the lattice, and translations that go with them, those are chosen which take the least conformal energy to
-///    deform the layout to. They are found among lattice points by enumeration (proven to be the closest ones for scale and rotation if `Tiling::is_closest`; up
-///    to about 30 cones), else by rounding to nearest planes. Scale and rotation follow from `number_of_tiles` or `maximum_distortion`.
-///  - The layout with these positions is the one of least conformal energy (the *generalized Laplace layout*). It is no longer conformally equivalent to the
-///    mesh exactly; `Tiling` has the figures. If nothing has to be deformed, as with at most two cones on a disk or three on a sphere, it still is.
+///  - The conformally equivalent flat metric is laid out, as by `flatten()`. The motions across the seam are rotations by multiples of 2 pi / n, with
+///    some translations; the cones lie where they happen to.
+///  - *Rectification*: of all positions of the cones in the lattice, and translations that go with them, those are chosen which take the least
+///    conformal energy to deform the layout to. They are found among lattice points by enumeration (proven to be the closest ones for scale and
+///    rotation if `Tiling::is_closest`; up to about 30 cones), else by rounding to nearest planes. Scale and rotation follow from `number_of_tiles`
+///    or `maximum_distortion`.
+///  - The layout with these positions is the one of least conformal energy (the *generalized Laplace layout*). It is no longer conformally equivalent
+///    to the mesh exactly; `Tiling` has the figures. If nothing has to be deformed, as with at most two cones on a disk or three on a sphere, it
+///    still is.
 ///
-/// With n = 2 and 4 seams are exact in the numbers written: for every seam edge a motion z -> i^k z + a + b i with integers a and b takes the coordinates of one
-/// side to those of the other, without any rounding. With n = 3 and 6 this holds for `Seamless_coordinates::LATTICE`. All triangles are positive, decided exactly
-/// on the numbers written.
+/// With n = 2 and 4 seams are exact in the numbers written: for every seam edge a motion z -> i^k z + a + b i with integers a and b takes the
+/// coordinates of one side to those of the other, without any rounding. With n = 3 and 6 this holds for `Seamless_coordinates::LATTICE`. All
+/// triangles are positive, decided exactly on the numbers written.
 ///
-/// Handles, and all borders but one, can be gone around; the surface then must turn by a multiple of 2 pi / n, as around a border with prescribed angles whose sum makes it
-/// so, or on a flat torus. Otherwise the status is `NOT_SEAMLESS`.
+/// Handles, and all borders but one, can be gone around; the surface then must turn by a multiple of 2 pi / n, as around a border with prescribed
+/// angles whose sum makes it so, or on a flat torus. Otherwise the status is `NOT_SEAMLESS`.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam HalfedgeUVMap as in `flatten()`
@@ -90,7 +92,8 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 ///     \cgalParamDefault{`CGAL_PI / 2`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{number_of_tiles}
-///     \cgalParamDescription{the area of the layout, about: of the nearby sizes and all rotations those with the least distortion are taken. If triangles are inverted by the deformation, there will be twice as many, or more}
+///     \cgalParamDescription{the area of the layout, about: of the nearby sizes and all rotations those with the least distortion are taken. If
+///       triangles are inverted by the deformation, there will be twice as many, or more}
 ///     \cgalParamType{`std::size_t`}
 ///     \cgalParamDefault{as few as `maximum_distortion` allows}
 ///   \cgalParamNEnd
@@ -120,10 +123,11 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \return the report, with the cones and their lattice points, exact transitions, and the `Tiling`. Maps are written iff it is a success, or `BOUND_NOT_MET`: then of the best that
-///         was found. Statuses: those of `place_cones()` and `flatten()`; `WRONG_TOPOLOGY` (several components); `INVALID_NUMBER` (a bound below 1); `ANGLE_OUT_OF_RANGE` (no lattice has this quantum, or vertices: cones
-///         with other angles, or free ones); `NOT_SEAMLESS` (edges; cones are reported all the same); `NOT_INJECTIVE` (faces: inverted on every grid that
-///         was tried); `SINGULAR_PROBLEM`.
+/// \return the report, with the cones and their lattice points, exact transitions, and the `Tiling`. Maps are written iff it is a success, or
+///         `BOUND_NOT_MET`: then of the best that was found. Statuses: those of `place_cones()` and `flatten()`; `WRONG_TOPOLOGY` (several
+///         components); `INVALID_NUMBER` (a bound below 1); `ANGLE_OUT_OF_RANGE` (no lattice has this quantum, or vertices: cones with other angles,
+///         or free ones); `NOT_SEAMLESS` (edges; cones are reported all the same); `NOT_INJECTIVE` (faces: inverted on every grid that was tried);
+///         `SINGULAR_PROBLEM`.
 ///
 /// Time: that of `place_cones()` and `flatten()`, the factorization of a matrix of twice the size, a solution with it for each cone, and a search
 /// among lattice points that is bounded.

@@ -3,8 +3,8 @@
 
 /// \file place_cones.h
 /// Cones that place themselves (section 5.1 of Springborn, Schroeder and Pinkall, 2008): where the scale is most distorted, a vertex is
-/// given up to have any angle; then all cones are moved until that helps no more. Their angles may be rounded to multiples of 2 pi / n (section 6), as
-/// textures and meshes of quadrangles ask for.
+/// given up to have any angle; then all cones are moved until that helps no more. Their angles may be rounded to multiples of 2 pi / n (section 6),
+/// as textures and meshes of quadrangles ask for.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_PLACE_CONES_H
 #define CGAL_CONFORMAL_EQUIVALENCE_PLACE_CONES_H
@@ -57,7 +57,8 @@ Cone_options read_cone_options(const NamedParameters& np)
   return options;
 }
 
-// Copies of solver traits may share one factor (those of Eigen_solver_traits do), and the search must keep its own: where it can, it makes new traits.
+// Copies of solver traits may share one factor (those of Eigen_solver_traits do), and the search must keep its own: where it can, it makes new
+// traits.
 template <typename SolverTraits>
 std::unique_ptr<Factorization> search_factorization(const SolverTraits& traits)
 {
@@ -110,7 +111,8 @@ void write_log_scale_factors(const Imported_mesh<TriangleMesh, double>& mesh, co
 
 /// \ingroup PkgConformalEquivalenceSolver
 ///
-/// places cones on a connected surface, and finds the metric with them. See `place_cones(tm, cone_angle_map, np)` for the method, the named parameters and statuses.
+/// places cones on a connected surface, and finds the metric with them. See `place_cones(tm, cone_angle_map, np)` for the method, the named
+/// parameters and statuses.
 /// \pre no vertex is in `non_manifold_vertices(t)`
 template <typename NT, typename NamedParameters = parameters::Default_named_parameters>
 Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const NamedParameters& np = parameters::default_values())
@@ -122,23 +124,24 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///
 /// places cones on a mesh, so that the flat metric with these cones distorts the scale less: |u| is to be small.
 ///
-///  - *Greedily*: the vertex with the largest |u| becomes a free cone (u = 0, any angle), one after the other. On borders u = 0. A closed surface of a genus
-///    other than 1 begins with its curvature spread equally over the vertices, a sphere until it has three cones.
+///  - *Greedily*: the vertex with the largest |u| becomes a free cone (u = 0, any angle), one after the other. On borders u = 0. A closed surface of
+///    a genus other than 1 begins with its curvature spread equally over the vertices, a sphere until it has three cones.
 ///  - *Concurrently*: each cone in turn is taken out, and put where |u| is largest then, until the cones settle or come back to where they were; the
 ///    best placement seen is kept.
 ///  - *Locally*: single cones are moved to vertices nearby, always where most is gained, as long as that makes it better.
-///  - *Rounded*, if there is an `angle_quantum`: the angles become positive multiples of it, with the least possible largest error among those which Gauss and Bonnet's formula
-///    allows. A cone with the angle 2 pi is none any more. The others are moved locally again, now with these angles.
+///  - *Rounded*, if there is an `angle_quantum`: the angles become positive multiples of it, with the least possible largest error among those which
+///    Gauss and Bonnet's formula allows. A cone with the angle 2 pi is none any more. The others are moved locally again, now with these angles.
 ///
 /// All of this uses one factorization; the metric with the cones found is then solved for to full precision.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
-/// \tparam VertexAngleMap a model of `WritablePropertyMap` with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type `double`
+/// \tparam VertexAngleMap a model of `WritablePropertyMap` with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type
+/// `double`
 ///
 /// \param tm a triangle mesh: one component, of any topology
 /// \param cone_angle_map receives the angle sums, in radians, of all vertices that are not on the border: those of the cones, and 2 pi
-/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below. The number of cones or a bound must be given; cones are
-///        placed until there are as many, or all bounds that are given are met.
+/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below. The number of cones or a bound must be
+///        given; cones are placed until there are as many, or all bounds that are given are met.
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{number_of_cones}
@@ -152,7 +155,9 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{maximum_area_distortion}
-///     \cgalParamDescription{the bound on the factor by which areas are scaled relative to the mean: on the largest max(a, 1 / a) of all faces, a = (scaled area / area) / (total scaled area / total area); faces without area do not count. Where edges were flipped, a is that of vertices, with e^{2u} for the first quotient}
+///     \cgalParamDescription{the bound on the factor by which areas are scaled relative to the mean: on the largest max(a, 1 / a) of all faces, a =
+///       (scaled area / area) / (total scaled area / total area); faces without area do not count. Where edges were flipped, a is that of vertices,
+///       with e^{2u} for the first quotient}
 ///     \cgalParamType{`double`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
@@ -189,8 +194,9 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \return the report, with the cones. Maps are written iff it is a success, or `BOUND_NOT_MET`: then with the best placement found, `amount` is its largest |u| if that is too large, else its area distortion. Statuses: those of `import_mesh()`;
-///         `WRONG_TOPOLOGY` (several components); `MISSING_CONDITION` (neither number nor bounds; or fewer than three cones on a sphere); `TOO_MANY_CONES` (more than vertices);
+/// \return the report, with the cones. Maps are written iff it is a success, or `BOUND_NOT_MET`: then with the best placement found, `amount` is its
+///         largest |u| if that is too large, else its area distortion. Statuses: those of `import_mesh()`; `WRONG_TOPOLOGY` (several components);
+///         `MISSING_CONDITION` (neither number nor bounds; or fewer than three cones on a sphere); `TOO_MANY_CONES` (more than vertices);
 ///         `ANGLE_OUT_OF_RANGE` (the quantum is not 2 pi / n); `NOT_QUANTIZABLE`; those of `Conformal_metric_solver::solve()`.
 ///
 /// Time: a few solves of a linear system with the one factor for each cone and sweep, and for each local move.

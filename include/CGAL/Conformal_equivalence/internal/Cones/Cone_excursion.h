@@ -39,9 +39,9 @@ struct Placement
 //
 //     P(w, v) = G(w, v) - z(w) . K^{-1} z(v),
 //
-// where z(v) are the responses at v to the other free cones or, where angles are prescribed on a closed surface, to equal forces everywhere, and 1 for
-// a constant; P is symmetric. Without the cone at c, where the force f acts, u would be u - f P_c. With it at v there is x P_v more: x = f where its
-// angle is prescribed, else what brings u_v to 0. That is known for all v at a few vertices w, those of the rows: only P(v, v) has to be
+// where z(v) are the responses at v to the other free cones or, where angles are prescribed on a closed surface, to equal forces everywhere, and 1
+// for a constant; P is symmetric. Without the cone at c, where the force f acts, u would be u - f P_c. With it at v there is x P_v more: x = f where
+// its angle is prescribed, else what brings u_v to 0. That is known for all v at a few vertices w, those of the rows: only P(v, v) has to be
 // guessed, from that of the cone, where G_v is not known.
 class Cone_excursion
 {
@@ -76,7 +76,8 @@ public:
     set_own();
   }
 
-  // On a closed surface forces are balanced by equal ones everywhere. Where the cone is the only one and free, its curvature is known, too, and u is 0 there.
+  // On a closed surface forces are balanced by equal ones everywhere. Where the cone is the only one and free, its curvature is known, too, and u is
+  // 0 there.
   void balance(const Response& uniform)
   {
     is_alone_ = is_free_;

@@ -1,9 +1,9 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Cones that place themselves: greedily, then all of them concurrently, then one after the other (section 5.1 of Springborn, Schroeder and Pinkall, 2008); with
-// angles that are rounded to multiples of 2 pi / n (section 6), if that is wanted. What is tried is compared to first order (Cone_search.h); the metric with the
-// cones that were found is solved for.
+// Cones that place themselves: greedily, then all of them concurrently, then one after the other (section 5.1 of Springborn, Schroeder and Pinkall,
+// 2008); with angles that are rounded to multiples of 2 pi / n (section 6), if that is wanted. What is tried is compared to first order
+// (Cone_search.h); the metric with the cones that were found is solved for.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
@@ -291,8 +291,8 @@ private:
   }
 
   // Moves single cones to vertices nearby as long as that makes it better, always the one move that promises most. Promises are exact to first order,
-  // but for two things: |u| at vertices that have not been looked at, and u at the new place itself. Where a promise is broken, the vertex at fault is
-  // looked at from then on, and shorter moves are tried.
+  // but for two things: |u| at vertices that have not been looked at, and u at the new place itself. Where a promise is broken, the vertex at fault
+  // is looked at from then on, and shorter moves are tried.
   Placement moved(Search& search, const Placement& first)
   {
     // a surface is about sqrt(n) edges wide, and a cone that the sweeps have placed lies within a fraction of that

@@ -14,8 +14,8 @@
 //
 // Responses are kept, so that what becomes of u if cones are put, taken out or moved costs nothing, to first order, but the response of a new place.
 // Where a cone is best moved to is found without even these: G is symmetric, so the responses of the few vertices at which |u| is large
-// tell what becomes of u there, wherever the cone is put (Cone_excursion). Only what looks best is computed, and what |u| was overlooked is looked at from then
-// on: constraints are generated as they are violated.
+// tell what becomes of u there, wherever the cone is put (Cone_excursion). Only what looks best is computed, and what |u| was overlooked is looked at
+// from then on: constraints are generated as they are violated.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_SEARCH_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_SEARCH_H
@@ -152,8 +152,8 @@ public:
     return result;
   }
 
-  // Some steps of Newton's method with the factor that there is, until angles, and u at free cones, are right up to `close`. Where that comes to little, the
-  // factor is renewed, if that is wanted, which costs as much as many steps. Returns false if steps came to nothing.
+  // Some steps of Newton's method with the factor that there is, until angles, and u at free cones, are right up to `close`. Where that comes to
+  // little, the factor is renewed, if that is wanted, which costs as much as many steps. Returns false if steps came to nothing.
   bool relax(Placement& p, int most, double close = 1e-3, bool may_renew = true)
   {
     const double infinity = std::numeric_limits<double>::infinity();
@@ -237,7 +237,8 @@ public:
 private:
   typedef Cone_excursion::Response Response;
 
-  // The vertex with the largest |u|, the first of equals, among those admitted, borders not; NaN counts as larger than anything. null_index if there is none.
+  // The vertex with the largest |u|, the first of equals, among those admitted, borders not; NaN counts as larger than anything. null_index if there
+  // is none.
   template <typename Admits>
   Index largest(const Vertex_vector& u, Admits admits) const
   {

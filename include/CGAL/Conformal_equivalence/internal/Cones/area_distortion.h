@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// By how much a metric that is conformally equivalent to a given one distorts areas relative to the total area. Areas are known by their logarithms, as
-// factors may be of any size.
+// By how much a metric that is conformally equivalent to a given one distorts areas relative to the total area. Areas are known by their logarithms,
+// as factors may be of any size.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_AREA_DISTORTION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_AREA_DISTORTION_H
@@ -44,7 +44,8 @@ inline double log_sum(const std::vector<double>& x)
   return largest + std::log(sum);
 }
 
-// The largest factor, or its inverse, by which areas grew relative to the mean; areas, and their totals, by their logarithms. What had no area does not count.
+// The largest factor, or its inverse, by which areas grew relative to the mean; areas, and their totals, by their logarithms. What had no area does
+// not count.
 inline double area_distortion(const std::vector<double>& before, const std::vector<double>& after, double total_before, double total_after)
 {
   double result = 0;

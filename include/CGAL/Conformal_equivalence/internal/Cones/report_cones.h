@@ -22,7 +22,8 @@ namespace internal {
 
 // What the cones of the report, those that were placed, were before their angles were rounded.
 template <typename TriangleMesh>
-void report_rounding(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_placement<double>& placement, Flattening_report<TriangleMesh>& report)
+void report_rounding(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_placement<double>& placement,
+                     Flattening_report<TriangleMesh>& report)
 {
   for(std::size_t i = 0; i < report.cones.size(); ++i)
     report.cones[i].free_angle = placement.free_angles[i];

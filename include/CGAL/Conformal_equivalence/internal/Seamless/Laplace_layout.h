@@ -13,11 +13,13 @@
 //     2 A |f_zbar|^2  =  |f_0 e_0 + f_1 e_1 + f_2 e_2|^2 / (8 A)
 //
 // over all triangles. The corners are f_k = rho z_v + tau, where (rho, tau) takes the corner that stands for the vertex v to this one. So
-// the energy is a Hermitian form in the z_v and the data. Over an inner edge both triangles give the same factor but for the area's part, which cancels: with
-// 1/4 (cot + cot) there it is the cotangent Laplacian of the edges; on borders the area's part stays, the natural
-// condition (Desbrun, Meyer and Alliez, 2002; Levy et al., 2002). Where the data are those of the flat surface the energy is zero, and z is the layout itself.
+// the energy is a Hermitian form in the z_v and the data. Over an inner edge both triangles give the same factor but for the area's part, which
+// cancels: with 1/4 (cot + cot) there it is the cotangent Laplacian of the edges; on borders the area's part stays, the natural
+// condition (Desbrun, Meyer and Alliez, 2002; Levy et al., 2002). Where the data are those of the flat surface the energy is zero, and z is the
+// layout itself.
 //
-// Triangles may be negative, as where straight lines replace the edges of a triangulation that was flipped. They count with the absolute value of the area.
+// Triangles may be negative, as where straight lines replace the edges of a triangulation that was flipped. They count with the absolute value of the
+// area.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_LAPLACE_LAYOUT_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_LAPLACE_LAYOUT_H

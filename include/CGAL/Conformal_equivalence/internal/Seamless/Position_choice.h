@@ -3,8 +3,8 @@
 
 // Which of the admissible positions a layout is deformed to (section 6.1 of Springborn, Schroeder and Pinkall, 2008).
 //
-// They are sum x_j b_j with a basis b_j (position_lattice.h) and coefficients x_j in the ring. The paper looks for the nearest positions, by rounding as many
-// as are independent. Here the distance is the conformal energy itself: with the Laplace layouts of the b_j the least energy for any x is a
+// They are sum x_j b_j with a basis b_j (position_lattice.h) and coefficients x_j in the ring. The paper looks for the nearest positions, by rounding
+// as many as are independent. Here the distance is the conformal energy itself: with the Laplace layouts of the b_j the least energy for any x is a
 // Hermitian form x* H x. That of the layout itself, x = x*, is zero, and so is that of all its multiples s x*, by which it is turned and
 // scaled. So H knows no scale, and that is chosen: the closest vector to s x* for
 //
@@ -56,7 +56,7 @@ public:
   Position_choice(const Position_lattice& positions, const Texture_lattice& lattice, const Coefficients& flat_positions, Energy energy)
     : lattice_of_positions_(positions), lattice_(lattice), flat_positions_(flat_positions),
       basis_(plane_basis(positions, lattice, flat_positions.size())),
-      flat_coefficients_(basis_.colPivHouseholderQr().solve(flat_positions)), energy_(energy(basis_)), reduced_(gram())
+      flat_coefficients_(solve_least_squares(basis_, flat_positions)), energy_(energy(basis_)), reduced_(gram())
   {}
 
   bool is_valid() const { return reduced_.is_valid(); }
@@ -65,7 +65,14 @@ public:
   const Coefficients& flat_coefficients() const { return flat_coefficients_; }
 
   // By number of cone and path, in the plane.
-  Coefficients plane_positions(const Coefficients& x) const { return basis_ * x; }
+  Coefficients plane_positions(const Coefficients& x) const
+  {
+    Coefficients result = Coefficients::Zero(basis_.rows());
+    for(Eigen::Index i = 0; i < basis_.rows(); ++i)
+      for(Eigen::Index j = 0; j < basis_.cols(); ++j)
+        result(i) += basis_(i, j) * x(j);
+    return result;
+  }
 
   // The same in lattice coordinates.
   std::vector<Lattice_point> integral_positions(const std::vector<Lattice_point>& x) const
@@ -92,14 +99,13 @@ public:
   // alpha(x)
   Complex scale_of(const Coefficients& x) const
   {
-    const Coefficients y = basis_ * x;
-    return flat_positions_.dot(y) / flat_positions_.squaredNorm();
+    return flat_positions_.dot(plane_positions(x)) / flat_positions_.squaredNorm();
   }
 
   // The part of the energy in the area, for coefficients x.
   double relative_energy(const Coefficients& x) const
   {
-    return (x.adjoint() * energy_ * x)(0).real() / std::norm(scale_of(x));
+    return product_of_adjoint(x, energy_).cwiseProduct(x).sum().real() / std::norm(scale_of(x));
   }
 
   // From the root of the mean square of |f_zbar / f_z|: not below the mean.
@@ -150,22 +156,69 @@ private:
     return result;
   }
 
-  // As a real form in the lattice coordinates of the coefficients.
+  // The x* a, as a column. (Loops of our own, here and below: matrices are small, and Eigen's products of complex ones cost a program seconds to
+  // compile.)
+  static Coefficients product_of_adjoint(const Coefficients& x, const Eigen::MatrixXcd& a)
+  {
+    Coefficients result = Coefficients::Zero(a.cols());
+    for(Eigen::Index j = 0; j < a.cols(); ++j)
+      for(Eigen::Index i = 0; i < a.rows(); ++i)
+        result(j) += a(i, j) * std::conj(x(i));
+    return result;
+  }
+
+  // The x for which a x is closest to b.
+  static Coefficients solve_least_squares(const Eigen::MatrixXcd& a, const Coefficients& b)
+  {
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> qr(a);
+    const Eigen::Index rank = qr.nonzeroPivots(), n = b.size();
+    Coefficients c = b; // becomes Q* b
+    for(Eigen::Index k = 0; k < rank; ++k)
+    {
+      const Complex tau = qr.hCoeffs()(k);
+      if(k == n - 1)
+        c(k) *= 1. - tau;
+      else if(tau != 0.)
+      {
+        const auto reflector = qr.matrixQR().col(k).tail(n - k - 1);
+        const Complex product = reflector.dot(c.tail(n - k - 1)) + c(k);
+        c(k) -= tau * product;
+        c.tail(n - k - 1) -= product * (tau * reflector);
+      }
+    }
+    qr.matrixQR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(c.head(rank));
+    Coefficients result = Coefficients::Zero(a.cols());
+    for(Eigen::Index k = 0; k < rank; ++k)
+      result(qr.colsPermutation().indices()(k)) = c(k);
+    return result;
+  }
+
+  // The Hermitian form that is minimized.
+  Eigen::MatrixXcd form() const
+  {
+    const Eigen::Index r = energy_.rows();
+    const Coefficients alpha = product_of_adjoint(flat_positions_, basis_) / flat_positions_.squaredNorm();
+    Eigen::MatrixXcd result = energy_;
+    for(Eigen::Index i = 0; i < r; ++i)
+      for(Eigen::Index j = 0; j < r; ++j)
+        result(i, j) += weight_of_scale * std::conj(alpha(i)) * alpha(j);
+    const double rounding = 1e-13; // of the energies, relative to the mean one: with this added the form is positive definite
+    const double shift = rounding * result.diagonal().real().sum() / double(r);
+    for(Eigen::Index i = 0; i < r; ++i)
+      result(i, i) += shift;
+    return result;
+  }
+
+  // The same as a real form in the lattice coordinates of the coefficients, of which 1 and theta are the units.
   Eigen::MatrixXd gram() const
   {
-    const int r = int(lattice_of_positions_.rank());
-    const Eigen::RowVectorXcd alpha = flat_positions_.adjoint() * basis_ / flat_positions_.squaredNorm();
-    Eigen::MatrixXcd form = energy_ + weight_of_scale * alpha.adjoint() * alpha;
-    const double rounding = 1e-13; // of the energies, relative to the largest: the form stays positive definite with this added
-    form += rounding * form.diagonal().real().sum() / r * Eigen::MatrixXcd::Identity(r, r);
-    Eigen::MatrixXcd complex(r, 2 * r);
-    complex.setZero();
-    for(int j = 0; j < r; ++j)
-    {
-      complex(j, 2 * j) = 1;
-      complex(j, 2 * j + 1) = lattice_.theta();
-    }
-    return (complex.adjoint() * form * complex).real();
+    const Eigen::MatrixXcd f = form();
+    const Complex unit[2] = {1, lattice_.theta()};
+    Eigen::MatrixXd result(2 * f.rows(), 2 * f.cols());
+    for(Eigen::Index i = 0; i < result.rows(); ++i)
+      for(Eigen::Index j = 0; j < result.cols(); ++j)
+        result(i, j) = (std::conj(unit[i % 2]) * f(i / 2, j / 2) * unit[j % 2]).real();
+    return result;
   }
 
   Eigen::VectorXd real_coefficients(const Coefficients& x) const

@@ -404,7 +404,8 @@ private:
       const Triangle_frame given = given_frame(t_, f);
       if(!given.is_degenerate())
       {
-        before.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, uv_corners([&](Index h) { return flat_corner(h); }, f))});
+        const UV_corners flat = uv_corners([&](Index h) { return flat_corner(h); }, f);
+        before.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, flat)});
         after.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, image)});
       }
       area += std::imag(std::conj(in_plane(3 * f + 1) - in_plane(3 * f)) * (in_plane(3 * f + 2) - in_plane(3 * f))) / 2;
@@ -422,8 +423,10 @@ private:
     for(Index f = 0; f < t_.number_of_faces(); ++f)
     {
       const Triangle_frame given = given_frame(t_, f);
-      if(!given.is_degenerate() && is_flat_positive(f))
-        result.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(plane_frame(normalized_->corners(), f), uv_corners(image, f))});
+      if(given.is_degenerate() || !is_flat_positive(f))
+        continue;
+      const double factor = quasi_conformal_factor(plane_frame(normalized_->corners(), f), uv_corners(image, f));
+      result.push_back({given.area(), Scaled_number<double>(), factor});
     }
     return mean_factor(result);
   }

@@ -4,8 +4,8 @@
 // Some vertices of a layout are moved, around triangles that are inverted: each to the mean value of its neighbors (Floater, 2003), with the weights
 // (tan(alpha / 2) + tan(beta / 2)) / length of the angles of the mesh beside an edge. These weights are positive, so that in a
 // region with a convex border no triangle is left inverted (Tutte, 1963); other regions have to be tried. What is left then may go away if
-// each vertex is put where it is farthest from the lines of the opposite sides of its triangles, on their left: at the centre of a largest circle in the kernel of
-// its star, if there is one.
+// each vertex is put where it is farthest from the lines of the opposite sides of its triangles, on their left: at the centre of a largest circle in
+// the kernel of its star, if there is one.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_RELAXATION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_RELAXATION_H
@@ -37,7 +37,8 @@ class Relaxation
   typedef std::complex<double> Complex;
 
 public:
-  // The vertices of the faces and of some rings of faces around these are free, unless they are fixed; on borders only to be centred. Keeps references.
+  // The vertices of the faces and of some rings of faces around these are free, unless they are fixed; on borders only to be centred. Keeps
+  // references.
   Relaxation(const Triangulation& t, const Meta_polygon& polygon, const Texture_lattice& lattice, const std::vector<Motion>& motion,
              const std::vector<char>& is_fixed, const std::vector<Index>& faces, int rings)
     : t_(t), polygon_(polygon), lattice_(lattice), motion_(motion)
@@ -57,8 +58,9 @@ public:
   // To mean values of neighbors.
   void average(std::vector<Point>& z) const
   {
-    const std::size_t n = 20 + 10 * vertices_.size(), most = 20 + 200000 / (vertices_.size() + 1);
-    for(std::size_t i = 0; i < (std::min)(n, most); ++i)
+    // the mean values converge in about as many rounds as there are vertices; large regions do with fewer, so that the work stays bounded
+    const std::size_t enough = 20 + 10 * vertices_.size(), most = 20 + 200000 / (vertices_.size() + 1);
+    for(std::size_t i = 0; i < (std::min)(enough, most); ++i)
       for(const Free_vertex& v : vertices_)
         if(!t_.is_border_vertex(v.vertex))
           z[v.vertex] = mean(v, z);
@@ -67,7 +69,8 @@ public:
   // Towards the centres of largest circles, one vertex after the other.
   void centre(std::vector<Point>& z) const
   {
-    for(std::size_t i = 0; i < 20; ++i)
+    const int number_of_rounds = 20; // vertices settle after a few
+    for(int i = 0; i < number_of_rounds; ++i)
       for(const Free_vertex& v : vertices_)
         move_to_centre(v, z);
   }
@@ -174,9 +177,11 @@ private:
     };
     Complex w = lattice_.to_plane(z[v.vertex]), best = w;
     double largest = distance_to_nearest(w);
-    if(nearest == nullptr || largest > 0.05 * radius) // not here
+    const double far_enough = 0.05 * radius; // from all sides: the trouble is not here
+    if(nearest == nullptr || largest > far_enough)
       return;
-    for(int k = 0; k < 50; ++k)
+    const int number_of_steps = 50; // the last is a fiftieth of the radius
+    for(int k = 0; k < number_of_steps; ++k)
     {
       w += radius / (k + 4.) * nearest->normal;
       const double distance = distance_to_nearest(w);

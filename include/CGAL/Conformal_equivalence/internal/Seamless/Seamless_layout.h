@@ -3,8 +3,8 @@
 
 // The last step of a seamless layout: from positions of the vertices to corners whose seams are exact, and triangles that are positive.
 //
-// Positions of vertices on the cut are rounded to a grid so coarse that the motions across it, rotations of lattice coordinates and integers, are free of
-// rounding. Orientations are decided after that. Triangles that are inverted, if they are few, are mended by moving vertices nearby.
+// Positions of vertices on the cut are rounded to a grid so coarse that the motions across it, rotations of lattice coordinates and integers, are
+// free of rounding. Orientations are decided after that. Triangles that are inverted, if they are few, are mended by moving vertices nearby.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_LAYOUT_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_LAYOUT_H
@@ -66,7 +66,8 @@ public:
       for(Index h : polygon_.paths[p].halfedges)
       {
         const auto motion = polygon_.after(Meta_polygon::Values<double>(), Meta_polygon::Crossing{Index(p), true}, by);
-        if(polygon_.apply(motion, corner(h)) != corner(t_.previous(t_.twin(h))) || polygon_.apply(motion, corner(t_.previous(h))) != corner(t_.twin(h)))
+        const Index g = t_.twin(h);
+        if(polygon_.apply(motion, corner(h)) != corner(t_.previous(g)) || polygon_.apply(motion, corner(t_.previous(h))) != corner(g))
           return false;
       }
     return true;
@@ -93,7 +94,8 @@ private:
   // Moves vertices around triangles that are inverted, few of them, until none is.
   bool untangle(const Motions& motion, Positions& z, Layout<double>& result)
   {
-    if(inverted_.size() > 10 + t_.number_of_faces() / 100)
+    const std::size_t few = 10 + t_.number_of_faces() / 100; // if there are more the deformation is too coarse, and nothing local helps
+    if(inverted_.size() > few)
       return false;
     const std::vector<Index> first_inverted = inverted_;
     std::vector<char> is_fixed(t_.number_of_vertices(), 0);
@@ -103,7 +105,7 @@ private:
     {
       Positions relaxed = z;
       const Relaxation relaxation(t_, polygon_, lattice_, motion, is_fixed, inverted_, rings);
-      for(int centred = 0; centred < 3; ++centred)
+      for(int centred = 0; centred < 3; ++centred) // averaged, then centred twice
       {
         centred == 0 ? relaxation.average(relaxed) : relaxation.centre(relaxed);
         if(!lay_out(motion, relaxed, result))
@@ -145,7 +147,7 @@ private:
         inverted_.push_back(f);
   }
 
-  static constexpr int most_rings = 6;
+  static constexpr int most_rings = 6; // around triangles that are inverted: a few hundred vertices
 
   const Triangulation& t_;
   const Meta_polygon& polygon_;

@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// One seamless parameterization of a mesh (section 6 of Springborn, Schroeder and Pinkall, 2008): the metric with its cones, its layout, and the layout
-// rectified.
+// One seamless parameterization of a mesh (section 6 of Springborn, Schroeder and Pinkall, 2008): the metric with its cones, its layout, and the
+// layout rectified.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_PARAMETERIZATION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_PARAMETERIZATION_H

@@ -3,8 +3,8 @@
 
 // The lattices that have rotations by 2 pi / n for their symmetries, and exact arithmetic with their points.
 //
-// For n = 2 and 4 these are the Gaussian integers, Z + Z theta with theta = i; for n = 3 and 6 the Eisenstein integers, theta = e^{i pi / 3}. There are
-// no others. In both
+// For n = 2 and 4 these are the Gaussian integers, Z + Z theta with theta = i; for n = 3 and 6 the Eisenstein integers, theta = e^{i pi / 3}. There
+// are no others. In both
 //
 //     theta^2 = tau theta - 1,   tau = theta + 1 / theta = 0 or 1,
 //

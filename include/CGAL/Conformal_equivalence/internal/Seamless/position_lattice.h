@@ -8,8 +8,8 @@
 //
 //     z -> rho z + (sum of powers of theta times the T_j),
 //
-// which is the identity at a vertex that is no cone, and leaves q where it is at a cone: one linear equation each, with coefficients in the ring Z[theta].
-// One cone lies in the origin. These are the conditions A d = 0, B d integral of the paper, without the sides d of the meta-polygon that
+// which is the identity at a vertex that is no cone, and leaves q where it is at a cone: one linear equation each, with coefficients in the ring
+// Z[theta]. One cone lies in the origin. These are the conditions A d = 0, B d integral of the paper, without the sides d of the meta-polygon that
 // are free anyway. The solutions are a module over Z[theta]; as that ring is Euclidean, columns are combined like the rows of
 // integers in Euclid's algorithm until all equations are used up: what is left over is a basis of *all* integral
 // solutions, not of a part of them.
@@ -121,7 +121,7 @@ struct Position_lattice
 
   std::size_t number_of_cones = 0;
   std::vector<std::vector<Point> > basis;  // each: the positions of the cones, then the translations of the paths
-  bool fits = true;                        // whether the numbers are in the range of 64 bits (far below it)
+  bool fits = true;                        // whether all numbers are below 2^40: sums and rotations of them then are in the range of 64 bits
 
   std::size_t rank() const { return basis.size(); }
 };
