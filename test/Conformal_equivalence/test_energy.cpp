@@ -386,7 +386,7 @@ void check_rotations(double unit)
     for(int k = 0; k < 3; ++k)
     {
       const Real alpha = CEi::angle(exact, k);
-      const CEi::Complex_number<NT> z = CEi::rotation(t, k), w = CEi::half_angle(t, k), square = w * w;
+      const CEi::Complex_number<NT> z = CEi::rotation(t, k), w = {t.tangent[k], t.r}, square = w * w;
       const NT size = w.re * w.re + w.im * w.im;
       BOOST_CHECK_SMALL(double(Real(Real(z.re) - cos(alpha))), 12 * unit);
       BOOST_CHECK_SMALL(double(Real(Real(z.im) - sin(alpha))), 12 * unit);
