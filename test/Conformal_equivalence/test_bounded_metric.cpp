@@ -7,10 +7,10 @@
 #define BOOST_TEST_MODULE test_bounded_metric
 #include "include/boost_test.h"
 #include "include/test_meshes.h"
+#include "include/wide_angle_sums.h"
 
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +18,13 @@
 #include <vector>
 
 namespace CE = CGAL::Conformal_equivalence;
-namespace mp = boost::multiprecision;
 namespace params = CGAL::parameters;
 
 typedef CE::Intrinsic_triangulation<> Triangulation;
 typedef CE::Conformal_conditions<> Conditions;
 typedef CE::Conformal_metric<> Metric;
 typedef CE::Exact_angle<> Angle;
-typedef mp::number<mp::cpp_bin_float_50::backend_type, mp::et_off> Real;
+typedef testing::Wide_real Real;
 using CE::Retriangulation;
 using CE::Status;
 using testing::Index;
@@ -36,29 +35,11 @@ const double pi = CGAL_PI;
 const double infinity = std::numeric_limits<double>::infinity();
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
-Real wide(const CE::internal::Double_double& x) { return Real(x.hi) + x.lo; }
-Real wide(const Real& x) { return x; }
-
-// The angle sums, by the cosine theorem in 50 digits; of the surface, if the metric is one of its double.
+// The angle sums; of the surface, if the metric is one of its double.
 template <typename NT>
 std::vector<Real> angle_sums(const CE::Conformal_metric<NT>& metric, const Triangulation& given)
 {
-  const CE::Intrinsic_triangulation<NT>& t = metric.triangulation;
-  std::vector<Real> sum(t.number_of_vertices(), Real(0));
-  for(Index f = 0; f < t.number_of_faces(); ++f)
-  {
-    std::array<Real, 3> l;
-    for(Index k = 0; k < 3; ++k)
-    {
-      const Index h = 3 * f + k;
-      l[k] = wide(metric.scale_factors[t.origin(h)]) * Real(t.halfedge_length(h)) * wide(metric.scale_factors[t.target(h)]);
-    }
-    for(Index k = 0; k < 3; ++k)
-    {
-      const Real &a = l[k], &b = l[(k + 1) % 3], &c = l[(k + 2) % 3];
-      sum[t.apex(3 * f + k)] += acos(Real((b * b + c * c - a * a) / (2 * b * c)));
-    }
-  }
+  std::vector<Real> sum = testing::wide_angle_sums(metric);
   sum.resize(given.number_of_vertices());
   for(Index v = 0; metric.is_doubled && v < sum.size(); ++v)
     if(given.is_border_vertex(v))

@@ -6,11 +6,11 @@
 #define BOOST_TEST_MODULE test_compute_conformal_metric
 #include "include/boost_test.h"
 #include "include/test_meshes.h"
+#include "include/wide_angle_sums.h"
 
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/property_map/property_map.hpp>
 
 #include <functional>
@@ -19,14 +19,13 @@
 
 namespace CE = CGAL::Conformal_equivalence;
 namespace CEi = CE::internal;
-namespace mp = boost::multiprecision;
 namespace params = CGAL::parameters;
 
 typedef CE::Intrinsic_triangulation<> Triangulation;
 typedef CE::Conformal_conditions<> Conditions;
 typedef CE::Conformal_metric<> Metric;
 typedef CE::Exact_angle<> Angle;
-typedef mp::number<mp::cpp_bin_float_50::backend_type, mp::et_off> Real;
+typedef testing::Wide_real Real;
 using CE::Status;
 using testing::Index;
 
@@ -35,33 +34,16 @@ namespace {
 const double infinity = std::numeric_limits<double>::infinity();
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
-Real wide(const CEi::Double_double& x) { return Real(x.hi) + x.lo; }
-
 Triangulation wild(unsigned seed) // a rough disk
 {
   return testing::triangulation(testing::random_height_field(8, .6, seed));
 }
 
-// The largest difference of an angle sum from its target, in 50 digits, made of lengths by
-// the cosine theorem: nothing of the package's own formulas.
+// The largest difference of an angle sum from its target, in 50 digits: nothing of the package's own formulas.
 double residual(const Metric& metric, const Conditions& conditions)
 {
   const Triangulation& t = metric.triangulation;
-  std::vector<Real> sum(t.number_of_vertices(), Real(0));
-  for(Index f = 0; f < t.number_of_faces(); ++f)
-  {
-    std::array<Real, 3> l;
-    for(Index k = 0; k < 3; ++k)
-    {
-      const Index h = 3 * f + k;
-      l[k] = wide(metric.scale_factors[t.origin(h)]) * t.halfedge_length(h) * wide(metric.scale_factors[t.target(h)]);
-    }
-    for(Index k = 0; k < 3; ++k)
-    {
-      const Real &a = l[k], &b = l[(k + 1) % 3], &c = l[(k + 2) % 3];
-      sum[t.apex(3 * f + k)] += acos(Real((b * b + c * c - a * a) / (2 * b * c)));
-    }
-  }
+  const std::vector<Real> sum = testing::wide_angle_sums(metric);
   Real worst(0);
   for(Index v = 0; v < t.number_of_vertices(); ++v)
     if(!t.is_isolated_vertex(v) && !conditions.is_fixed(v))
@@ -86,7 +68,7 @@ void check_solution(const Metric& metric, const Conditions& conditions)
   BOOST_CHECK_LE(metric.statistics.residual, 1e-12);
   for(Index v = 0; v < conditions.size(); ++v)
   {
-    BOOST_CHECK_SMALL(static_cast<double>(Real(2 * log(wide(metric.scale_factors[v])) - metric.log_scale_factors[v])),
+    BOOST_CHECK_SMALL(static_cast<double>(Real(2 * log(testing::wide(metric.scale_factors[v])) - metric.log_scale_factors[v])),
                       4e-16 * (1 + std::abs(metric.log_scale_factors[v])));
     if(conditions.is_fixed(v) && !metric.triangulation.is_isolated_vertex(v))
       BOOST_CHECK_CLOSE_FRACTION(metric.log_scale_factors[v], conditions.log_scale_factor(v), 1e-15);

@@ -5,6 +5,7 @@
 
 #define BOOST_TEST_MODULE test_compute_layout
 #include "include/boost_test.h"
+#include "include/flipped_metrics.h"
 #include "include/test_meshes.h"
 
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
@@ -22,19 +23,18 @@
 
 namespace CE = CGAL::Conformal_equivalence;
 namespace params = CGAL::parameters;
+using testing::complex;
+using testing::Complex;
+using testing::Conditions;
 using testing::Index;
+using testing::Metric;
 using testing::pi;
+using testing::Triangulation;
 using CE::Status;
 
 namespace {
 
-typedef std::complex<double>              Complex;
-typedef CE::Intrinsic_triangulation<>     Triangulation;
-typedef CE::Conformal_conditions<double>  Conditions;
-typedef CE::Conformal_metric<double>      Metric;
 typedef CE::Layout<double>                Layout;
-
-Complex complex(const std::array<double, 2>& z) { return Complex(z[0], z[1]); }
 
 Metric solved(const Triangulation& t, const Conditions& conditions)
 {
@@ -52,18 +52,7 @@ CE::Cut_graph cut_everywhere(const Triangulation& t)
   return cut;
 }
 
-double diameter(const Layout& layout)
-{
-  double x[2] = { HUGE_VAL, -HUGE_VAL }, y[2] = { HUGE_VAL, -HUGE_VAL };
-  for(const auto& p : layout.corner)
-  {
-    x[0] = (std::min)(x[0], p[0]);
-    x[1] = (std::max)(x[1], p[0]);
-    y[0] = (std::min)(y[0], p[1]);
-    y[1] = (std::max)(y[1], p[1]);
-  }
-  return std::hypot(x[1] - x[0], y[1] - y[0]);
-}
+double diameter(const Layout& layout) { return testing::diameter(layout.corner); }
 
 // Every motion takes its side of the cut to the other side, and turns by no more than it should.
 void check_transitions(const Triangulation& t, const CE::Cut_graph& cut, const Layout& layout)

@@ -450,7 +450,8 @@ BOOST_AUTO_TEST_CASE(admissible_positions_are_those_of_the_papers_matrices)
       const Texture_lattice lattice(n);
       const std::unique_ptr<Rectification> whole = rectified(*f, n, 500);
       Rectification& r = *whole;
-      BOOST_TEST_REQUIRE((r.result().status == CE::Status::OK || r.result().status == CE::Status::NOT_INJECTIVE));
+      // with 500 tiles the lattice is so fine that rounding the cones to it inverts nothing
+      BOOST_TEST_REQUIRE((r.result().status == CE::Status::OK), CE::message(r.result().status));
       const std::size_t rank_of_lattice = r.positions().rank();
       BOOST_TEST(rank_of_lattice == f->cones.size() - (is_closed ? 2 : 1));
       if(rank_of_lattice == 0)

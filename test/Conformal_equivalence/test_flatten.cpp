@@ -7,8 +7,8 @@
 #define BOOST_TEST_MODULE test_flatten
 #include "include/boost_test.h"
 #include "include/flattened_meshes.h"
+#include "include/output_maps.h"
 
-#include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
@@ -41,48 +41,10 @@ using CE::Status;
 namespace {
 
 typedef CE::Flattening_report<Mesh> Report;
+typedef Border_maps                 Maps;
 
-const double unwritten = 77;
 const double infinity = std::numeric_limits<double>::infinity();
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-// A mesh with all the maps that flatten() can write, so filled that it shows whether it did.
-struct Maps
-{
-  Mesh sm;
-  Mesh::Property_map<Halfedge, Point_2> uv;
-  Mesh::Property_map<Vertex, double> u, weight, angle, fixed_u;
-  Mesh::Property_map<Vertex, bool> is_fixed;
-  Mesh::Property_map<Edge, double> scaled;
-
-  explicit Maps(const Mesh& mesh) : sm(mesh)
-  {
-    uv = sm.add_property_map<Halfedge, Point_2>("h:uv", Point_2(unwritten, unwritten)).first;
-    u = sm.add_property_map<Vertex, double>("v:u", unwritten).first;
-    weight = sm.add_property_map<Vertex, double>("v:weight", unwritten).first;
-    scaled = sm.add_property_map<Edge, double>("e:scaled", unwritten).first;
-    angle = sm.add_property_map<Vertex, double>("v:angle", 0).first;
-    fixed_u = sm.add_property_map<Vertex, double>("v:fixed_u", 0).first;
-    is_fixed = sm.add_property_map<Vertex, bool>("v:is_fixed", false).first;
-  }
-  explicit Maps(const Soup& soup) : Maps(surface_mesh<Mesh>(soup)) {}
-  Maps(const Maps&) = delete;
-
-  template <typename NamedParameters = decltype(params::gradient_tolerance(1e-12))>
-  Report flatten(const NamedParameters& np = params::gradient_tolerance(1e-12))
-  {
-    return CE::flatten(sm, uv, CE::combine_named_parameters(
-      np, params::log_scale_factor_map(u).projective_weight_map(weight).scaled_edge_length_map(scaled)));
-  }
-
-  bool is_untouched() const
-  {
-    return std::all_of(uv.begin(), uv.end(), [](const Point_2& p) { return p == Point_2(unwritten, unwritten); })
-        && std::all_of(u.begin(), u.end(), [](double x) { return x == unwritten; })
-        && std::all_of(weight.begin(), weight.end(), [](double x) { return x == unwritten; })
-        && std::all_of(scaled.begin(), scaled.end(), [](double x) { return x == unwritten; });
-  }
-};
 
 // The border turns equally everywhere.
 void prescribe_circle(Maps& m)
@@ -182,13 +144,18 @@ BOOST_AUTO_TEST_CASE(needles)
   BOOST_TEST(report.faces.size() == 1u);
   BOOST_TEST(m.is_untouched());
 
-  // so thin that coordinates may not hold it: right, or refused
+  // So thin that most places of the plane have no coordinates for it. But the border keeps its lengths, so that u is 0 and the layout is the
+  // triangle as it is; and its frame puts the long direction into the first axis, so that the second coordinates of the short side are close
+  // to 0, where numbers of any size have all of their digits.
   for(const Point& p : { Point{{1e-300, 0, 0}}, Point{{1e-17, 0, 0}}, Point{{1e-17, 1e-17, 0}} })
   {
     Maps thin(one_triangle({{0, 0, 0}}, p, {{-.4, 1, .3}}));
     const Report verdict = thin.flatten();
-    BOOST_TEST((verdict || verdict.status == Status::NOT_INJECTIVE || verdict.status == Status::DEGENERATE_METRIC), CE::message(verdict));
-    BOOST_TEST((verdict ? judge(thin.sm, thin.uv).not_positive_triangles == 0 : thin.is_untouched()));
+    BOOST_TEST((verdict.status == Status::OK), CE::message(verdict));
+    BOOST_TEST(judge(thin.sm, thin.uv).not_positive_triangles == 0u);
+    for(Halfedge h : halfedges(thin.sm))
+      if(!is_border(h, thin.sm))
+        BOOST_TEST(std::abs(uv_length(thin.sm, thin.uv, h) / thin.scaled[edge(h, thin.sm)] - 1) <= 16 * std::ldexp(1., -53));
   }
 }
 
@@ -230,16 +197,14 @@ BOOST_AUTO_TEST_CASE(what_the_fixed_triangulation_cannot_do, * needs_mesh("cylin
     {
       Maps m(read_mesh(name));
       const Report report = m.flatten(params::retriangulation(CE::Retriangulation::NEVER));
-      BOOST_TEST((report.status == Status::DEGENERATE_METRIC || report.status == Status::ITERATIONS_EXHAUSTED),
-                 CE::message(report));
+      // There is a minimizer: each of these surfaces can be drawn in the plane with straight edges (Fary), and the angles of that drawing keep
+      // the energy from falling for ever. It is found; but there, some triangles are broken.
+      BOOST_TEST((report.status == Status::DEGENERATE_METRIC), CE::message(report));
       BOOST_TEST(!report.faces.empty());
       BOOST_TEST(report.faces.size() == report.face_indices.size());
       BOOST_TEST(m.is_untouched());
       if(std::string(name) == "cylinder_locally_refined.off")
-      {
-        BOOST_TEST((report.status == Status::DEGENERATE_METRIC));
         BOOST_TEST(set_of(report.face_indices).size() == 6u);
-      }
     }
 }
 
@@ -493,190 +458,6 @@ BOOST_AUTO_TEST_CASE(lengths_without_coordinates)
   BOOST_TEST(bare.is_untouched());
   BOOST_TEST_REQUIRE(bool(bare.flatten(params::edge_length_map(length))));
   BOOST_TEST(std::equal(m.uv.begin(), m.uv.end(), bare.uv.begin()));
-}
-
-// --- rectangle ----------------------------------------------------------------------------------
-
-namespace {
-
-typedef std::array<Vertex, 4> Corners;
-
-void check_rectangle(Maps& m, const Corners& corners)
-{
-  CE::prescribe_rectangle(m.sm, corners, m.angle);
-  const Report report = m.flatten(params::border_angle_map(m.angle));
-  BOOST_TEST_REQUIRE(bool(report), CE::message(report));
-  const checking::Verdict verdict = judge(m.sm, m.uv, false);
-  BOOST_TEST(verdict.is_good(), verdict);
-
-  // every border edge lies along one of two directions, at right angles; the corners are where they meet
-  const double rounding = rounding_of_lengths(m.sm, m.uv);
-  std::size_t right_angles = 0, in_order = 0;
-  for(Halfedge h : CGAL::halfedges_around_face(border_halfedge(m.sm), m.sm))
-  {
-    const Point_2 p = m.uv[prev(h, m.sm)], q = m.uv[h], r = m.uv[next(h, m.sm)];
-    const double x = q.x() - p.x(), y = q.y() - p.y(), s = r.x() - q.x(), t = r.y() - q.y();
-    const double size = std::hypot(x, y) * std::hypot(s, t);
-    const double sine = (x * t - y * s) / size, cosine = (x * s + y * t) / size; // clockwise along the border
-    if(std::find(corners.begin(), corners.end(), target(h, m.sm)) != corners.end())
-    {
-      ++right_angles;
-      BOOST_TEST(sine < 0);
-      BOOST_TEST(std::abs(cosine) <= (std::max)(1e-10, 32 * rounding));
-    }
-    else
-    {
-      BOOST_TEST(cosine > 0);
-      BOOST_TEST(std::abs(sine) <= (std::max)(1e-10, 32 * rounding));
-    }
-  }
-  BOOST_TEST(right_angles == 4u);
-  // in the order of the border
-  Halfedge h = border_halfedge(m.sm);
-  while(target(h, m.sm) != corners[0])
-    h = next(h, m.sm);
-  for(const Halfedge first = h; in_order < 4; )
-  {
-    if(target(h, m.sm) == corners[in_order])
-      ++in_order;
-    h = next(h, m.sm);
-    if(h == first)
-      break;
-  }
-  BOOST_TEST(in_order == 4u);
-}
-
-// The Dirichlet energy of u for the corners; infinite if there is no such rectangle.
-double rectangle_energy(const Maps& m, const Corners& corners)
-{
-  const auto mesh = CE::import_mesh(m.sm);
-  CE::Conformal_conditions<double> conditions(mesh.triangulation);
-  for(Vertex v : border_vertices(m.sm))
-  {
-    const bool is_corner = std::find(corners.begin(), corners.end(), v) != corners.end();
-    conditions.prescribe_angle_sum(mesh.index_of_vertex(v), CE::Exact_angle<double>::pi_times(1, is_corner ? 2 : 1));
-  }
-  const auto metric = CE::compute_conformal_metric(mesh.triangulation, conditions);
-  return metric ? CE::dirichlet_energy(mesh.triangulation, metric.log_scale_factors) : infinity;
-}
-
-Corners select_corners(const Mesh& sm, Report& report)
-{
-  return CE::select_rectangle_corners(sm, border_halfedge(sm), params::flattening_report(std::ref(report)));
-}
-
-} // namespace
-
-BOOST_AUTO_TEST_CASE(rectangles)
-{
-  for(const Soup& soup : { flat_grid(4), hill(8, .5), random_height_field(6, .5, 2), cone(8, .6),
-                           scaled(hill(5, .4), 1e-150), scaled(hill(5, .4), 1e150),
-                           rings(5, [](double x, double y) { return .4 * std::exp(-3 * (x * x + y * y)); }) })
-  {
-    Maps m(soup);
-    check_rectangle(m, CE::select_rectangle_corners(m.sm, border_halfedge(m.sm)));
-  }
-}
-
-BOOST_AUTO_TEST_CASE(rectangles_of_CGAL, * needs_mesh("lion-head.off"))
-{
-  for(const char* name : { "lion-head.off", "nefertiti.off" })
-    BOOST_TEST_CONTEXT(name)
-    {
-      Maps m(read_mesh(name));
-      check_rectangle(m, CE::select_rectangle_corners(m.sm, border_halfedge(m.sm)));
-    }
-}
-
-BOOST_AUTO_TEST_CASE(corners_of_a_square_are_its_corners)
-{
-  const auto bump = [](double x, double y) { return .2 * std::exp(-9 * ((x - .5) * (x - .5) + (y - .5) * (y - .5))); };
-  for(const Soup& soup : { flat_grid(5), symmetric_grid(4, bump), symmetric_grid(5, [](double, double) { return 0.; }) })
-  {
-    Maps m(soup);
-    Report report;
-    const Corners corners = select_corners(m.sm, report);
-    BOOST_TEST((report.status == Status::OK));
-    for(Vertex v : corners)
-    {
-      const Point_3 p = m.sm.point(v);
-      BOOST_TEST(((p.x() == 0 || p.x() == 1) && (p.y() == 0 || p.y() == 1)), p);
-    }
-    BOOST_TEST(std::set<Vertex>(corners.begin(), corners.end()).size() == 4u);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(forced_corners)
-{
-  Report report;
-  const Mesh four = surface_mesh<Mesh>(star(4)); // the tips of the star
-  const Corners tips = select_corners(four, report);
-  BOOST_TEST((report.status == Status::OK));
-  for(Vertex v : tips)
-    BOOST_TEST(v.idx() >= 5u);
-
-  const Mesh two = surface_mesh<Mesh>(hill(4, .3)); // two corners of the grid
-  const Corners corners = select_corners(two, report);
-  for(Vertex v : vertices(two))
-    if(degree(v, two) == 2)
-      BOOST_TEST((std::find(corners.begin(), corners.end(), v) != corners.end()));
-
-  Maps six(star(6));
-  const Corners none = select_corners(six.sm, report);
-  BOOST_TEST((report.status == Status::ANGLE_OUT_OF_RANGE));
-  BOOST_TEST(report.amount == CGAL_PI);
-  BOOST_TEST((set_of(report.vertex_indices) == std::set<std::size_t>{ 7, 8, 9, 10, 11, 12 }));
-  BOOST_TEST((none[0] == Mesh::null_vertex()));
-  CE::prescribe_rectangle(six.sm, none, six.angle);
-  const auto kept = params::border_angle_map(six.angle).retriangulation(CE::Retriangulation::NEVER);
-  BOOST_TEST((six.flatten(kept).status == Status::ANGLE_OUT_OF_RANGE));
-  CE::prescribe_rectangle(six.sm, {{Vertex(7), Vertex(8), Vertex(9), Vertex(10)}}, six.angle);
-  const Report refused = six.flatten(kept);
-  BOOST_TEST((refused.status == Status::ANGLE_OUT_OF_RANGE));
-  BOOST_TEST((set_of(refused.vertex_indices) == std::set<std::size_t>{ 11, 12 }));
-  BOOST_TEST(six.is_untouched());
-}
-
-BOOST_AUTO_TEST_CASE(no_corners)
-{
-  Report report;
-  for(const Soup& soup : { one_triangle({{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}), cone(3, .5) })
-  {
-    const Mesh sm = surface_mesh<Mesh>(soup);
-    const Corners corners = select_corners(sm, report);
-    BOOST_TEST((report.status == Status::MISSING_CONDITION));
-    for(Vertex v : corners)
-      BOOST_TEST((v == Mesh::null_vertex()));
-  }
-  const Mesh ring = surface_mesh<Mesh>(annulus(2, 8));
-  BOOST_TEST((select_corners(ring, report)[0] == Mesh::null_vertex()));
-  BOOST_TEST((report.status == Status::WRONG_TOPOLOGY));
-}
-
-BOOST_AUTO_TEST_CASE(no_exchange_of_a_corner_is_better)
-{
-  const auto bump = [](double x, double y) { return .6 * std::exp(-5 * ((x - .3) * (x - .3) + y * y)); };
-  for(const Soup& soup : { hill(4, .5), random_height_field(5, .7, 11), rings(3, bump), cone(9, .5) })
-  {
-    const Maps m(soup);
-    Report report;
-    const Corners corners = select_corners(m.sm, report);
-    BOOST_TEST_REQUIRE((report.status == Status::OK));
-    const double chosen = rectangle_energy(m, corners);
-    BOOST_TEST(std::isfinite(chosen));
-    std::size_t exchanges = 0;
-    for(int k = 0; k < 4; ++k)
-      for(Vertex v : border_vertices(m.sm))
-      {
-        if(degree(corners[k], m.sm) == 2 || std::find(corners.begin(), corners.end(), v) != corners.end())
-          continue; // must be a corner, or is one
-        Corners other = corners;
-        other[k] = v;
-        BOOST_TEST(rectangle_energy(m, other) >= chosen * (1 - 1e-6));
-        ++exchanges;
-      }
-    BOOST_TEST(exchanges > 0u);
-  }
 }
 
 // --- frames -------------------------------------------------------------------------------------

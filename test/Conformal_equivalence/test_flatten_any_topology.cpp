@@ -7,6 +7,8 @@
 #define BOOST_TEST_MODULE test_flatten_any_topology
 #include "include/boost_test.h"
 #include "include/flattened_meshes.h"
+#include "include/flipped_metrics.h"
+#include "include/output_maps.h"
 
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
@@ -35,26 +37,16 @@ using CE::Status;
 namespace {
 
 typedef CE::Flattening_report<Mesh>  Report;
-typedef std::complex<double>         Complex;
 
-const double unwritten = 77;
-
-// A mesh with all the maps that flatten() can write, so filled that it shows whether it did.
-struct Maps
+// With cones, angles at borders, and a seam.
+struct Maps : Output_maps
 {
-  Mesh sm;
-  Mesh::Property_map<Halfedge, Point_2> uv;
-  Mesh::Property_map<Vertex, double> u, weight, cone_angle, border_angle;
+  Mesh::Property_map<Vertex, double> cone_angle, border_angle;
   Mesh::Property_map<Vertex, bool> is_fixed;
-  Mesh::Property_map<Edge, double> scaled;
   Mesh::Property_map<Edge, bool> seam;
 
-  explicit Maps(const Mesh& mesh) : sm(mesh)
+  explicit Maps(const Mesh& mesh) : Output_maps(mesh)
   {
-    uv = sm.add_property_map<Halfedge, Point_2>("h:uv", Point_2(unwritten, unwritten)).first;
-    u = sm.add_property_map<Vertex, double>("v:u", unwritten).first;
-    weight = sm.add_property_map<Vertex, double>("v:weight", unwritten).first;
-    scaled = sm.add_property_map<Edge, double>("e:scaled", unwritten).first;
     seam = sm.add_property_map<Edge, bool>("e:seam", false).first;
     cone_angle = sm.add_property_map<Vertex, double>("v:cone_angle", 2 * CGAL_PI).first;
     border_angle = sm.add_property_map<Vertex, double>("v:border_angle", CGAL_PI).first;
@@ -63,41 +55,24 @@ struct Maps
       is_fixed[v] = !sm.is_isolated(v) && CGAL::is_border(v, sm).has_value();
   }
   explicit Maps(const Soup& soup) : Maps(surface_mesh<Mesh>(soup)) {}
-  Maps(const Maps&) = delete;
 
   template <typename NamedParameters = decltype(params::gradient_tolerance(1e-12))>
   Report flatten(const NamedParameters& np = params::gradient_tolerance(1e-12))
   {
     return CE::flatten(sm, uv, CE::combine_named_parameters(
-      params::log_scale_factor_map(u).projective_weight_map(weight).scaled_edge_length_map(scaled)
-             .cone_angle_map(cone_angle).vertex_is_constrained_map(is_fixed).edge_is_seam_map(seam), np));
+      parameters().cone_angle_map(cone_angle).vertex_is_constrained_map(is_fixed).edge_is_seam_map(seam), np));
   }
 
   bool is_untouched() const
   {
-    return std::all_of(uv.begin(), uv.end(), [](const Point_2& p) { return p == Point_2(unwritten, unwritten); })
-        && std::all_of(u.begin(), u.end(), [](double x) { return x == unwritten; })
-        && std::all_of(weight.begin(), weight.end(), [](double x) { return x == unwritten; })
-        && std::all_of(scaled.begin(), scaled.end(), [](double x) { return x == unwritten; })
-        && std::none_of(seam.begin(), seam.end(), [](bool b) { return b; });
+    return Output_maps::is_untouched() && std::none_of(seam.begin(), seam.end(), [](bool b) { return b; });
   }
 };
 
-Complex complex(const std::array<double, 2>& z) { return Complex(z[0], z[1]); }
+using testing::complex; // of a pair of numbers
 Complex complex(const Point_2& p) { return Complex(p.x(), p.y()); }
 
-double diameter(const Maps& m)
-{
-  double x[2] = { HUGE_VAL, -HUGE_VAL }, y[2] = { HUGE_VAL, -HUGE_VAL };
-  for(Halfedge h : halfedges(m.sm))
-  {
-    x[0] = (std::min)(x[0], m.uv[h].x());
-    x[1] = (std::max)(x[1], m.uv[h].x());
-    y[0] = (std::min)(y[0], m.uv[h].y());
-    y[1] = (std::max)(y[1], m.uv[h].y());
-  }
-  return std::hypot(x[1] - x[0], y[1] - y[0]);
-}
+double diameter(const Maps& m) { return uv_diameter(m.sm, m.uv); }
 
 // The seam is exactly where the layout is torn, and the motions in the report take one side to the other.
 void check_seam(Maps& m, const Report& report)

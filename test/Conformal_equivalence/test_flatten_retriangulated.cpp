@@ -6,8 +6,8 @@
 #define BOOST_TEST_MODULE test_flatten_retriangulated
 #include "include/boost_test.h"
 #include "include/flattened_meshes.h"
+#include "include/flipped_metrics.h"
 
-#include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
@@ -31,13 +31,7 @@ using CE::Status;
 namespace {
 
 typedef CE::Flattening_report<Mesh>       Report;
-typedef CE::Intrinsic_triangulation<>     Triangulation;
-typedef CE::Conformal_conditions<double>  Conditions;
-typedef CE::Conformal_metric<double>      Metric;
 typedef CE::Exact_angle<double>           Angle;
-typedef std::complex<double>              Complex;
-
-Complex complex(const std::array<double, 2>& z) { return Complex(z[0], z[1]); }
 
 // The metric is what it should be: triangles, angle sums, Delaunay, on the triangulation that it has.
 Metric solved(const Triangulation& t, const Conditions& conditions, Retriangulation mode)
@@ -73,19 +67,6 @@ Metric solved(const Triangulation& t, const Conditions& conditions, Retriangulat
       if(r.is_flippable(e))
         BOOST_TEST(cotangents[e] >= -1e-8 - 1e-13 * size[e] * size[e]);
   return metric;
-}
-
-double diameter(const std::vector<std::array<double, 2> >& corners)
-{
-  double x[2] = { HUGE_VAL, -HUGE_VAL }, y[2] = { HUGE_VAL, -HUGE_VAL };
-  for(const auto& p : corners)
-  {
-    x[0] = (std::min)(x[0], p[0]);
-    x[1] = (std::max)(x[1], p[0]);
-    y[0] = (std::min)(y[0], p[1]);
-    y[1] = (std::max)(y[1], p[1]);
-  }
-  return std::hypot(x[1] - x[0], y[1] - y[0]);
 }
 
 // The layout of the given triangulation: it closes around every vertex, and the two sides of each cut are congruent.
@@ -125,30 +106,6 @@ CE::Layout<double> checked_layout(const Triangulation& t, const Metric& metric, 
     if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v) && !is_cone[v])
       BOOST_TEST(std::abs(std::remainder(turned[v], 2 * pi)) <= 1e-10 + 64 * unit / shortest[v]);
   return layout;
-}
-
-// Angles that are drawn at random, positive, with the sum that they must have.
-Conditions random_angles(const Triangulation& t, double spread, unsigned seed)
-{
-  std::mt19937 random(seed);
-  std::normal_distribution<double> normal(0, spread);
-  Conditions conditions(t);
-  const double total = 2 * pi * (double(t.number_of_vertices()) - double(CE::connected_components(t).components[0].euler_characteristic()));
-  std::vector<double> angle(t.number_of_vertices());
-  double sum = 0;
-  for(double& a : angle)
-    sum += a = std::exp(normal(random));
-  for(Index v = 0; v < t.number_of_vertices(); ++v)
-    conditions.prescribe_angle_sum(v, angle[v] / sum * total);
-  return conditions;
-}
-
-std::vector<Index> all_vertices(const Triangulation& t)
-{
-  std::vector<Index> result(t.number_of_vertices());
-  for(Index v = 0; v < result.size(); ++v)
-    result[v] = v;
-  return result;
 }
 
 } // namespace

@@ -1253,22 +1253,19 @@ BOOST_AUTO_TEST_CASE(numbers)
   BOOST_TEST(report.edge_indices[0][0] + report.edge_indices[0][1] == 16u);
 }
 
+// There is always a minimizer: without the star of a vertex, a triangulated sphere can be drawn in the plane with straight edges (Fary), and the
+// angles of that drawing keep the energy from falling for ever. But at the minimizer, triangles of these surfaces are broken. (The seeds 0 and
+// 4 are left out: there, Newton's method does not reach the minimizer with its default number of steps.)
 BOOST_AUTO_TEST_CASE(without_flips)
 {
-  std::size_t refused = 0;
-  for(unsigned seed = 0; seed < 4; ++seed)
+  for(const unsigned seed : { 1u, 2u, 3u, 5u, 6u, 7u })
   {
     Maps m(needles(seed));
     const Report report = m.map(Retriangulation::NEVER);
-    if(bool(report))
-      continue;
-    ++refused;
-    BOOST_TEST((report.status == Status::DEGENERATE_METRIC || report.status == Status::NOT_INJECTIVE
-                || report.status == Status::ITERATIONS_EXHAUSTED));
+    BOOST_TEST((report.status == Status::DEGENERATE_METRIC), CE::message(report));
     BOOST_TEST(!report.faces.empty());
     BOOST_TEST(m.is_untouched());
   }
-  BOOST_TEST(refused > 0u);
 }
 
 BOOST_AUTO_TEST_CASE(cow_without_flips, * needs_mesh("cow.off"))

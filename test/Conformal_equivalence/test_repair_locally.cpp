@@ -400,9 +400,9 @@ BOOST_AUTO_TEST_CASE(budget)
     BOOST_TEST(r.changes.size() == budget);
     BOOST_TEST(bool(r) == (budget == needed));
     BOOST_TEST(r.triangulation().number_of_vertices() == t.number_of_vertices() + r.number_of_splits()); // told on failure, too
-    if(!r)
-      BOOST_TEST((r.metric.status == Status::DEGENERATE_METRIC || r.metric.status == Status::ANGLE_OUT_OF_RANGE
-                  || r.metric.status == Status::ITERATIONS_EXHAUSTED));
+    // The surface is drawn in the plane with straight edges, and remains so: angles like those keep the energy from falling for ever, so that
+    // there is a minimizer, and what is not repaired is broken there.
+    BOOST_TEST((r.metric.status == (budget == needed ? Status::OK : Status::DEGENERATE_METRIC)), CE::message(r.metric.status));
   }
 }
 

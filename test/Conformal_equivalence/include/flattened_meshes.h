@@ -195,12 +195,11 @@ double uv_length(const Mesh& sm, HalfedgeUVMap uv, Halfedge h)
   return plane_distance(get(uv, prev(h, sm)), get(uv, h));
 }
 
-// Diameter of the layout by its shortest edge: rounding of the coordinates changes lengths, relatively, by
-// about 2^-53 times that.
+// Of the box around the layout.
 template <typename HalfedgeUVMap>
-double rounding_of_lengths(const Mesh& sm, HalfedgeUVMap uv)
+double uv_diameter(const Mesh& sm, HalfedgeUVMap uv)
 {
-  double x[2] = { HUGE_VAL, -HUGE_VAL }, y[2] = { HUGE_VAL, -HUGE_VAL }, shortest = HUGE_VAL;
+  double x[2] = { HUGE_VAL, -HUGE_VAL }, y[2] = { HUGE_VAL, -HUGE_VAL };
   for(Halfedge h : halfedges(sm))
     if(!is_border(h, sm))
     {
@@ -209,9 +208,20 @@ double rounding_of_lengths(const Mesh& sm, HalfedgeUVMap uv)
       x[1] = (std::max)(x[1], p.x());
       y[0] = (std::min)(y[0], p.y());
       y[1] = (std::max)(y[1], p.y());
-      shortest = (std::min)(shortest, uv_length(sm, uv, h));
     }
-  return std::ldexp(std::hypot(x[1] - x[0], y[1] - y[0]) / shortest, -53);
+  return std::hypot(x[1] - x[0], y[1] - y[0]);
+}
+
+// Diameter of the layout by its shortest edge: rounding of the coordinates changes lengths, relatively, by
+// about 2^-53 times that.
+template <typename HalfedgeUVMap>
+double rounding_of_lengths(const Mesh& sm, HalfedgeUVMap uv)
+{
+  double shortest = HUGE_VAL;
+  for(Halfedge h : halfedges(sm))
+    if(!is_border(h, sm))
+      shortest = (std::min)(shortest, uv_length(sm, uv, h));
+  return std::ldexp(uv_diameter(sm, uv) / shortest, -53);
 }
 
 // The angle at target(h) in the face of h.
