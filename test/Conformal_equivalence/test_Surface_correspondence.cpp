@@ -7,6 +7,7 @@
 #define BOOST_TEST_MODULE test_Surface_correspondence
 #include "include/boost_test.h"
 #include "include/flattened_meshes.h"
+#include "include/inscribed_images.h"
 
 #include <CGAL/Conformal_equivalence/Surface_correspondence.h>
 
@@ -40,7 +41,6 @@ typedef Sphere_locator::Face_location         Location;
 typedef CE::Three_landmarks<Vertex, Vertex>   Landmarks;
 typedef std::array<double, 2>                 Point_of_disk;
 
-const double unit_roundoff = std::ldexp(1., -53);
 
 // --- points of a mesh ---------------------------------------------------------------------------
 
@@ -140,26 +140,6 @@ Stretch stretch(const Mesh& sm, const Locator& locator, const std::vector<double
 BOOST_AUTO_TEST_SUITE(spheres)
 
 namespace {
-
-Soup distorted_sphere(int levels, double noise, unsigned seed)
-{
-  Soup soup = scaled(icosphere(levels), 1.3, 1, .8);
-  add_noise(soup, noise, seed);
-  return soup;
-}
-
-// Thin triangles that need flips.
-Soup needles(unsigned seed)
-{
-  Soup soup = icosphere(2);
-  Random random(seed);
-  for(Point& p : soup.points)
-  {
-    const double r = std::exp(random(-.5, .5));
-    p = {{5 * r * p[0], r * p[1], .4 * r * p[2]}};
-  }
-  return soup;
-}
 
 // An inversion and a reflection: the orientation stays.
 Soup inverted(Soup soup, const Point& centre)

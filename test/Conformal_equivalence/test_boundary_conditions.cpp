@@ -6,13 +6,14 @@
 
 #define BOOST_TEST_MODULE test_boundary_conditions
 #include "include/boost_test.h"
+#include "include/border_maps.h"
 #include "include/flattened_meshes.h"
-#include "include/output_maps.h"
 
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
+#include <CGAL/Conformal_equivalence/edge_lengths.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>

@@ -6,8 +6,9 @@
 
 #define BOOST_TEST_MODULE test_flatten
 #include "include/boost_test.h"
+#include "include/border_maps.h"
 #include "include/flattened_meshes.h"
-#include "include/output_maps.h"
+#include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
@@ -63,7 +64,7 @@ void check_natural(Maps& m, const Report& report, bool may_be_rounded = false)
   BOOST_TEST_REQUIRE(bool(report), CE::message(report));
   if(!may_be_rounded)
     BOOST_TEST((report.status == Status::OK), CE::message(report));
-  BOOST_TEST(report.statistics.residual <= 1e-12);
+  BOOST_TEST(report.statistics.residual <= solver_tolerance);
   BOOST_TEST(report.layout_length_error <= 4 * rounding_of_lengths(m.sm, m.uv));
   BOOST_TEST(report.topology.is_disk());
   const checking::Verdict verdict = judge(m.sm, m.uv);
@@ -78,7 +79,7 @@ void check_natural(Maps& m, const Report& report, bool may_be_rounded = false)
     }
     BOOST_TEST((m.uv[h] == m.uv[opposite(next(h, m.sm), m.sm)])); // one corner a vertex: nothing is cut
   }
-  const double tolerance = (std::max)(1e-12, 16 * rounding_of_lengths(m.sm, m.uv));
+  const double tolerance = (std::max)(solved_u, 16 * rounding_of_lengths(m.sm, m.uv));
   const double least_u = (std::min)(0., least(m.u));
   for(Edge e : edges(m.sm))
   {
@@ -87,7 +88,7 @@ void check_natural(Maps& m, const Report& report, bool may_be_rounded = false)
   }
   for(Vertex v : vertices(m.sm))
     if(!m.sm.is_isolated(v))
-      BOOST_TEST(std::abs(std::log(m.weight[v]) - (least_u - m.u[v])) <= 1e-12);
+      BOOST_TEST(std::abs(std::log(m.weight[v]) - (least_u - m.u[v])) <= solved_u);
 }
 
 template <typename Range>
@@ -121,8 +122,8 @@ BOOST_AUTO_TEST_CASE(size_does_not_matter)
   check_natural(large, large.flatten());
   for(Vertex v : vertices(one.sm))
   {
-    BOOST_TEST(std::abs(one.u[v] - small.u[v]) <= 1e-14);
-    BOOST_TEST(std::abs(one.u[v] - large.u[v]) <= 1e-12);
+    BOOST_TEST(std::abs(one.u[v] - small.u[v]) <= unmoved_u);
+    BOOST_TEST(std::abs(one.u[v] - large.u[v]) <= solved_u);
   }
 }
 
@@ -275,7 +276,7 @@ BOOST_AUTO_TEST_CASE(numbering_does_not_matter)
   for(Index v = 0; v < vertex.size(); ++v)
   {
     const Vertex va(v), vb(vertex[v]);
-    BOOST_TEST(std::abs(a.u[va] - b.u[vb]) <= 1e-13);
+    BOOST_TEST(std::abs(a.u[va] - b.u[vb]) <= rounded_u);
     BOOST_TEST(plane_distance(a.uv[halfedge(va, a.sm)], b.uv[halfedge(vb, b.sm)]) <= 1e-12);
   }
 }
@@ -309,10 +310,10 @@ BOOST_AUTO_TEST_CASE(border_angles)
     prescribe_circle(m);
     const Report report = m.flatten(params::border_angle_map(m.angle));
     BOOST_TEST_REQUIRE(bool(report), CE::message(report));
-    BOOST_TEST(report.statistics.angle_defect_spread <= 1e-12);
+    BOOST_TEST(report.statistics.angle_defect_spread <= solver_tolerance);
     const checking::Verdict verdict = judge(m.sm, m.uv, false);
     BOOST_TEST(verdict.is_good(), verdict);
-    const double tolerance = (std::max)(1e-11, 64 * rounding_of_lengths(m.sm, m.uv));
+    const double tolerance = (std::max)(layout_angle, 64 * rounding_of_lengths(m.sm, m.uv));
     for(Vertex v : border_vertices(m.sm))
       BOOST_TEST(std::abs(uv_angle_sum(m.sm, m.uv, v) - m.angle[v]) <= tolerance);
     double sum = 0;
@@ -336,7 +337,7 @@ BOOST_AUTO_TEST_CASE(border_scale_factors)
     const Vertex v = source(h, m.sm), w = target(h, m.sm);
     BOOST_TEST(m.u[w] == m.fixed_u[w]);
     const double l = std::sqrt(CGAL::squared_distance(m.sm.point(v), m.sm.point(w)));
-    BOOST_TEST(std::abs(uv_length(m.sm, m.uv, opposite(h, m.sm)) / (l * std::exp((m.fixed_u[v] + m.fixed_u[w]) / 2)) - 1) <= 1e-12);
+    BOOST_TEST(std::abs(uv_length(m.sm, m.uv, opposite(h, m.sm)) / (l * std::exp((m.fixed_u[v] + m.fixed_u[w]) / 2)) - 1) <= solved_u);
   }
 }
 
@@ -361,7 +362,7 @@ BOOST_AUTO_TEST_CASE(angles_here_and_scale_factors_there)
     if(m.is_fixed[v])
       BOOST_TEST(m.u[v] == m.fixed_u[v]);
     else
-      BOOST_TEST(std::abs(uv_angle_sum(m.sm, m.uv, v) - m.angle[v]) <= 1e-11);
+      BOOST_TEST(std::abs(uv_angle_sum(m.sm, m.uv, v) - m.angle[v]) <= layout_angle);
   }
 
   const auto same_as_before = [&](const auto& np)
@@ -374,7 +375,7 @@ BOOST_AUTO_TEST_CASE(angles_here_and_scale_factors_there)
   const auto halves = CE::combine_named_parameters(params::vertex_is_constrained_map(m.is_fixed),
                                                    params::border_angle_map(m.angle).prescribed_log_scale_factor_map(m.fixed_u));
   same_as_before(halves);
-  same_as_before(halves.gradient_tolerance(1e-12).number_of_iterations(99));
+  same_as_before(halves.gradient_tolerance(solver_tolerance).number_of_iterations(99));
   // of two values the last counts
   same_as_before(CE::combine_named_parameters(params::border_angle_map(m.fixed_u), halves));
 }
@@ -392,13 +393,13 @@ BOOST_AUTO_TEST_CASE(metrics_of_an_annulus)
   {
     const auto metric = CE::compute_conformal_metric(t, c);
     BOOST_TEST_REQUIRE(bool(metric), CE::message(metric.status));
-    BOOST_TEST(metric.statistics.residual <= 1e-12);
+    BOOST_TEST(metric.statistics.residual <= solver_tolerance);
     const std::vector<double> sums = CE::angle_sums(CE::apply_log_scale_factors(t, metric.log_scale_factors));
     for(Index v = 0; v < t.number_of_vertices(); ++v)
       if(c.is_fixed(v))
         BOOST_TEST(metric.log_scale_factors[v] == 0);
       else
-        BOOST_TEST(std::abs(sums[v] - c.angle_sum(v).radians()) <= 1e-11);
+        BOOST_TEST(std::abs(sums[v] - c.angle_sum(v).radians()) <= layout_angle);
   }
 
 }
@@ -625,34 +626,34 @@ BOOST_AUTO_TEST_CASE(parameters_of_the_solver)
       BOOST_TEST(std::abs(m.u[v] - other.u[v]) <= tolerance);
   };
   BOOST_TEST(bool(other.flatten(params::newton_strategy(CE::Newton_strategy::TRUST_REGION))));
-  is_same(1e-12);
+  is_same(solved_u);
 
   const auto start = other.sm.add_property_map<Vertex, double>("v:start", 0).first;
   const std::vector<double> numbers = random_numbers(num_vertices(m.sm), .2, 9);
   for(Vertex v : vertices(other.sm))
     start[v] = numbers[v];
   BOOST_TEST(bool(other.flatten(params::initial_log_scale_factor_map(start))));
-  is_same(1e-12);
+  is_same(solved_u);
   const Report again = other.flatten(params::initial_log_scale_factor_map(m.u));
   BOOST_TEST(bool(again));
   BOOST_TEST(again.statistics.number_of_iterations == 0u);
 
   typedef CGAL::Eigen_sparse_matrix<double>::EigenType Matrix;
   const CGAL::Eigen_solver_traits<Eigen::SimplicialLLT<Matrix> > solver;
-  BOOST_TEST(bool(other.flatten(params::gradient_tolerance(1e-12).sparse_linear_solver(solver))));
-  is_same(1e-13);
+  BOOST_TEST(bool(other.flatten(params::gradient_tolerance(solver_tolerance).sparse_linear_solver(solver))));
+  is_same(rounded_u);
 
   const auto point = other.sm.add_property_map<Vertex, Point_3>("v:other_point").first;
   for(Vertex v : vertices(other.sm))
     std::swap(point[v], other.sm.point(v)); // now all at the origin
   BOOST_TEST((other.flatten().status == Status::ZERO_LENGTH_EDGE));
-  BOOST_TEST(bool(other.flatten(params::gradient_tolerance(1e-12).vertex_point_map(point).number_of_iterations(50))));
+  BOOST_TEST(bool(other.flatten(params::gradient_tolerance(solver_tolerance).vertex_point_map(point).number_of_iterations(50))));
   is_same(0);
 
   Maps poor(hill(8, .7));
-  const Report few = poor.flatten(params::gradient_tolerance(1e-12).number_of_iterations(1));
+  const Report few = poor.flatten(params::gradient_tolerance(solver_tolerance).number_of_iterations(1));
   BOOST_TEST((few.status == Status::ITERATIONS_EXHAUSTED));
-  BOOST_TEST(few.amount > 1e-12);
+  BOOST_TEST(few.amount > solver_tolerance);
   BOOST_TEST(few.statistics.number_of_iterations == 1u);
   BOOST_TEST(poor.is_untouched());
   const Report rounded = poor.flatten(params::gradient_tolerance(1e-60));
@@ -686,7 +687,7 @@ BOOST_AUTO_TEST_CASE(visitors)
   Maps m(hill(8, .7));
   Counting_visitor visitor;
   visitor.patience = 2;
-  const Report stopped = m.flatten(params::gradient_tolerance(1e-12).visitor(std::ref(visitor)));
+  const Report stopped = m.flatten(params::gradient_tolerance(solver_tolerance).visitor(std::ref(visitor)));
   BOOST_TEST((stopped.status == Status::STOPPED_BY_VISITOR));
   BOOST_TEST(visitor.residuals.size() == 2u);
   BOOST_TEST(stopped.statistics.number_of_iterations == 1u);
@@ -694,16 +695,16 @@ BOOST_AUTO_TEST_CASE(visitors)
 
   Counting_visitor impatient;
   impatient.patience = 0;
-  BOOST_TEST((m.flatten(params::gradient_tolerance(1e-12).visitor(impatient)).status == Status::STOPPED_BY_VISITOR));
+  BOOST_TEST((m.flatten(params::gradient_tolerance(solver_tolerance).visitor(impatient)).status == Status::STOPPED_BY_VISITOR));
   BOOST_TEST(impatient.stages.empty()); // given by value: the copy has seen them
   BOOST_TEST(m.is_untouched());
 
   Counting_visitor patient;
-  const Report report = m.flatten(params::gradient_tolerance(1e-12).visitor(std::ref(patient)));
+  const Report report = m.flatten(params::gradient_tolerance(solver_tolerance).visitor(std::ref(patient)));
   BOOST_TEST_REQUIRE(bool(report));
   BOOST_TEST((patient.stages == std::vector<CE::Stage>{ CE::Stage::IMPORT, CE::Stage::SOLVE, CE::Stage::CUT, CE::Stage::LAYOUT, CE::Stage::VERIFY }));
   BOOST_TEST(patient.residuals.size() == report.statistics.number_of_iterations + 1);
-  BOOST_TEST(patient.residuals.back() <= 1e-12);
+  BOOST_TEST(patient.residuals.back() <= solver_tolerance);
 }
 
 // --- bad input ----------------------------------------------------------------------------------
@@ -715,8 +716,8 @@ struct Refusal : Report // which may be discarded
   explicit Refusal(const Report& report) : Report(report) {}
 };
 
-template <typename NamedParameters = decltype(params::gradient_tolerance(1e-12))>
-Refusal check_refused(Maps& m, Status status, const NamedParameters& np = params::gradient_tolerance(1e-12))
+template <typename NamedParameters = decltype(params::gradient_tolerance(solver_tolerance))>
+Refusal check_refused(Maps& m, Status status, const NamedParameters& np = params::gradient_tolerance(solver_tolerance))
 {
   Report copy;
   const Report report = m.flatten(CE::combine_named_parameters(np, params::flattening_report(std::ref(copy))));

@@ -9,6 +9,7 @@
 #include "include/flattened_meshes.h"
 #include "include/flipped_metrics.h"
 #include "include/output_maps.h"
+#include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
@@ -56,8 +57,8 @@ struct Maps : Output_maps
   }
   explicit Maps(const Soup& soup) : Maps(surface_mesh<Mesh>(soup)) {}
 
-  template <typename NamedParameters = decltype(params::gradient_tolerance(1e-12))>
-  Report flatten(const NamedParameters& np = params::gradient_tolerance(1e-12))
+  template <typename NamedParameters = decltype(params::gradient_tolerance(solver_tolerance))>
+  Report flatten(const NamedParameters& np = params::gradient_tolerance(solver_tolerance))
   {
     return CE::flatten(sm, uv, CE::combine_named_parameters(
       parameters().cone_angle_map(cone_angle).vertex_is_constrained_map(is_fixed).edge_is_seam_map(seam), np));
@@ -137,7 +138,7 @@ checking::Cones cones_of(const Maps& m)
 void check_flat(Maps& m, const Report& report, bool border_keeps_its_lengths = true)
 {
   BOOST_TEST_REQUIRE(bool(report), CE::message(report));
-  BOOST_TEST(report.statistics.residual <= 1e-12);
+  BOOST_TEST(report.statistics.residual <= solver_tolerance);
   BOOST_TEST(report.layout_length_error <= 4 * rounding_of_lengths(m.sm, m.uv));
   const checking::Verdict verdict = judge(m.sm, m.uv, border_keeps_its_lengths, cones_of(m));
   BOOST_TEST(verdict.is_good(), verdict);

@@ -7,6 +7,8 @@
 #define BOOST_TEST_MODULE test_map_to_disk
 #include "include/boost_test.h"
 #include "include/flattened_meshes.h"
+#include "include/inscribed_images.h"
+#include "include/output_maps.h"
 
 #include <CGAL/Conformal_equivalence/map_to_disk.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
@@ -52,37 +54,17 @@ typedef CE::Three_point_disk_frame<Vertex>                   Three_point_frame;
 typedef std::complex<double>                                 Complex;
 typedef std::vector<Complex>                                 Complexes;
 
-const double unwritten = 77, unit_roundoff = std::ldexp(1., -53);
-
-// A mesh with all the maps that map_to_disk() can write, so filled that it shows whether it did.
-struct Maps
+// A mesh with all the maps that map_to_disk() can write.
+struct Maps : Image_maps<Point_2>
 {
-  Mesh sm;
-  Mesh::Property_map<Vertex, Point_2> in_disk;
-  Mesh::Property_map<Vertex, double> u, weight;
+  Mesh::Property_map<Vertex, Point_2> in_disk = image;
 
-  explicit Maps(const Mesh& mesh) : sm(mesh)
-  {
-    in_disk = sm.add_property_map<Vertex, Point_2>("v:in_disk", Point_2(unwritten, unwritten)).first;
-    u = sm.add_property_map<Vertex, double>("v:u", unwritten).first;
-    weight = sm.add_property_map<Vertex, double>("v:weight", unwritten).first;
-  }
+  explicit Maps(const Mesh& mesh) : Image_maps<Point_2>(mesh, Point_2(unwritten, unwritten)) {}
   explicit Maps(const Soup& soup) : Maps(surface_mesh<Mesh>(soup)) {}
-  Maps(const Maps&) = delete;
 
   template <typename NamedParameters>
-  Report map(const NamedParameters& np)
-  {
-    return CE::map_to_disk(sm, in_disk, CE::combine_named_parameters(params::log_scale_factor_map(u).projective_weight_map(weight), np));
-  }
+  Report map(const NamedParameters& np) { return CE::map_to_disk(sm, in_disk, CE::combine_named_parameters(parameters(), np)); }
   Report map(Retriangulation retriangulation = Retriangulation::WHEN_NEEDED) { return map(params::retriangulation(retriangulation)); }
-
-  bool is_untouched(Vertex v) const { return in_disk[v] == Point_2(unwritten, unwritten) && u[v] == unwritten && weight[v] == unwritten; }
-  bool is_untouched() const
-  {
-    const auto range = vertices(sm);
-    return std::all_of(range.begin(), range.end(), [&](Vertex v) { return is_untouched(v); });
-  }
 
   Complex operator[](Vertex v) const { return Complex(in_disk[v].x(), in_disk[v].y()); }
 
@@ -186,27 +168,7 @@ void check_conformality(const Maps& m, const CE::Intrinsic_triangulation<>& surf
 {
   const double tolerance = tolerance_of_lengths(m);
   BOOST_TEST(tolerance <= 1e-9);
-  CE::Intrinsic_triangulation<> flat = surface;
-  double u_max = -HUGE_VAL, u_min = HUGE_VAL;
-  for(Vertex v : vertices(m.sm))
-    if(!m.sm.is_isolated(v))
-    {
-      u_max = (std::max)(u_max, m.u[v]);
-      u_min = (std::min)(u_min, m.u[v]);
-    }
-  for(Index e = 0; e < surface.number_of_edges(); ++e)
-  {
-    const Vertex i(surface.origin(surface.edge_halfedge(e))), j(surface.target(surface.edge_halfedge(e)));
-    flat.set_length(e, std::abs(m[i] - m[j]));
-    const double scaled = std::exp((m.u[i] + m.u[j]) / 2) * surface.length(e);
-    BOOST_TEST(std::abs(scaled / flat.length(e) - 1) <= tolerance + 4 * unit_roundoff * (std::abs(m.u[i]) + std::abs(m.u[j])));
-  }
-  for(Index e = 0; e < surface.number_of_edges(); ++e)
-    if(surface.twin(surface.edge_halfedge(e)) != surface.null_index)
-      BOOST_TEST(std::abs(CE::length_cross_ratio(flat, e) / CE::length_cross_ratio(surface, e) - 1) <= tolerance);
-  for(Vertex v : vertices(m.sm))
-    if(!m.sm.is_isolated(v))
-      BOOST_TEST(std::abs(m.weight[v] / std::exp(u_min - m.u[v]) - 1) <= 8 * unit_roundoff * (1 + std::abs(u_min) + std::abs(u_max)));
+  check_scaling(m, surface, [&](Vertex i, Vertex j) { return std::abs(m[i] - m[j]); }, tolerance);
 }
 
 void check_conformality(const Maps& m) { check_conformality(m, CE::import_mesh(m.sm).triangulation); }
@@ -242,33 +204,6 @@ void check_frame(const Maps& m)
 }
 
 // --- the overlay --------------------------------------------------------------------------------
-
-// Barycentric coordinates of a vertex of the overlay in a face of the input.
-Point barycentric(const Refinement& parts, const CE::Intrinsic_triangulation<>& input, Index f, Index v)
-{
-  Point result = {{0, 0, 0}};
-  if(v < parts.number_of_input_vertices)
-  {
-    for(Index k = 0; k < 3; ++k)
-      result[k] = input.origin(3 * f + k) == v;
-    BOOST_TEST(result[0] + result[1] + result[2] == 1);
-    return result;
-  }
-  const auto& x = parts.crossings[v - parts.number_of_input_vertices];
-  BOOST_TEST((x.input_parameter >= 0 && x.input_parameter <= 1));
-  const Index h = input.edge_halfedge(x.input_edge), side = input.face(h) == f ? h : input.twin(h);
-  BOOST_REQUIRE(side != input.null_index);
-  BOOST_REQUIRE(input.face(side) == f);
-  const double t = side == h ? x.input_parameter : 1 - x.input_parameter;
-  result[side % 3] = 1 - t;
-  result[input.next(side) % 3] = t;
-  return result;
-}
-
-double determinant(const Point& p, const Point& q, const Point& r)
-{
-  return p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
-}
 
 // Triangles, positive, of Euler number 1, with one point for each vertex, and no overlap: the areas sum up to what the border surrounds.
 void check_parts(const Refinement& parts)
@@ -308,35 +243,6 @@ void check_parts(const Refinement& parts)
   }
   BOOST_TEST(double(std::abs(area - around)) <= 1e-12);
   BOOST_TEST(point.size() + parts.number_of_faces() == inner / 2 + border + 1);
-}
-
-// The parts of each face of the input fill it, and nothing else; an edge is cut in the same way from both sides.
-void check_that_parts_fill_faces(const Refinement& parts, const CE::Intrinsic_triangulation<>& input)
-{
-  std::vector<double> area(input.number_of_faces(), 0);
-  std::vector<std::multiset<std::pair<Index, Index> > > along(input.number_of_edges()); // from the origin of its first halfedge
-  for(Index f = 0; f < parts.number_of_faces(); ++f)
-  {
-    const std::size_t c = parts.first_corner[f];
-    const Index in = parts.input_face[f];
-    const double a = determinant(barycentric(parts, input, in, parts.corner_vertex[c]), barycentric(parts, input, in, parts.corner_vertex[c + 1]),
-                                 barycentric(parts, input, in, parts.corner_vertex[c + 2]));
-    BOOST_TEST(a >= -4 * unit_roundoff);
-    area[in] += a;
-    for(std::size_t k = 0; k < 3; ++k)
-    {
-      const Index h = parts.corner_halfedge[c + k], i = parts.corner_vertex[c + k], j = parts.corner_vertex[c + (k + 1) % 3];
-      if(h == parts.null_index)
-        continue;
-      BOOST_TEST(input.face(h) == in);
-      along[input.edge(h)].insert(h == input.edge_halfedge(input.edge(h)) ? std::make_pair(i, j) : std::make_pair(j, i));
-    }
-  }
-  for(double a : area)
-    BOOST_TEST(std::abs(a - 1) <= 1e-12);
-  for(Index e = 0; e < input.number_of_edges(); ++e)
-    for(const auto& segment : along[e])
-      BOOST_TEST(along[e].count(segment) == (input.is_border(input.edge_halfedge(e)) ? 1u : 2u));
 }
 
 // Border edges that were lost are the broken ones: all of their crossings lie inside of the circle. The others are straight.
@@ -409,16 +315,10 @@ Soup sphere_without_a_triangle(int levels)
   return soup;
 }
 
-// Random heights on a long body without the triangles around one vertex: thin triangles that need flips.
+// Thin triangles that need flips, without those around one vertex.
 Soup thorns(unsigned seed)
 {
-  Soup soup = icosphere(2);
-  Random random(seed);
-  for(Point& p : soup.points)
-  {
-    const double r = std::exp(random(-.5, .5));
-    p = {{5 * r * p[0], r * p[1], .4 * r * p[2]}};
-  }
+  const Soup soup = needles(seed);
   Soup result;
   std::map<Index, Index> number; // without the vertex
   for(std::array<Index, 3> t : soup.triangles)

@@ -7,6 +7,8 @@
 #define BOOST_TEST_MODULE test_map_to_sphere
 #include "include/boost_test.h"
 #include "include/flattened_meshes.h"
+#include "include/inscribed_images.h"
+#include "include/output_maps.h"
 
 #include <CGAL/Conformal_equivalence/map_to_sphere.h>
 
@@ -47,41 +49,17 @@ typedef CEi::Double_double                                   Double_double;
 typedef CEi::Light_vector<double>                            Vector;
 typedef std::vector<Point>                                   Points;
 
-const double unwritten = 77, unit_roundoff = std::ldexp(1., -53);
-
-// A mesh with all the maps that map_to_sphere() can write, so filled that it shows whether it did.
-struct Maps
+// A mesh with all the maps that map_to_sphere() can write.
+struct Maps : Image_maps<Point_3>
 {
-  Mesh sm;
-  Mesh::Property_map<Vertex, Point_3> on_sphere;
-  Mesh::Property_map<Vertex, double> u, weight;
+  Mesh::Property_map<Vertex, Point_3> on_sphere = image;
 
-  explicit Maps(const Mesh& mesh) : sm(mesh)
-  {
-    on_sphere = sm.add_property_map<Vertex, Point_3>("v:on_sphere", Point_3(unwritten, unwritten, unwritten)).first;
-    u = sm.add_property_map<Vertex, double>("v:u", unwritten).first;
-    weight = sm.add_property_map<Vertex, double>("v:weight", unwritten).first;
-  }
+  explicit Maps(const Mesh& mesh) : Image_maps<Point_3>(mesh, Point_3(unwritten, unwritten, unwritten)) {}
   explicit Maps(const Soup& soup) : Maps(surface_mesh<Mesh>(soup)) {}
-  Maps(const Maps&) = delete;
 
   template <typename NamedParameters>
-  Report map(const NamedParameters& np)
-  {
-    return CE::map_to_sphere(sm, on_sphere, CE::combine_named_parameters(
-      params::log_scale_factor_map(u).projective_weight_map(weight), np));
-  }
+  Report map(const NamedParameters& np) { return CE::map_to_sphere(sm, on_sphere, CE::combine_named_parameters(parameters(), np)); }
   Report map(Retriangulation retriangulation) { return map(params::retriangulation(retriangulation)); }
-
-  bool is_untouched(Vertex v) const
-  {
-    return on_sphere[v] == Point_3(unwritten, unwritten, unwritten) && u[v] == unwritten && weight[v] == unwritten;
-  }
-  bool is_untouched() const
-  {
-    const auto range = vertices(sm);
-    return std::all_of(range.begin(), range.end(), [&](Vertex v) { return is_untouched(v); });
-  }
 
   Points points() const
   {
@@ -190,26 +168,7 @@ void check_conformality(const Maps& m, const CE::Intrinsic_triangulation<>& surf
 {
   const double tolerance = tolerance_of_chords(m);
   BOOST_TEST(tolerance <= 2e-10);
-  CE::Intrinsic_triangulation<> chords = surface;
-  double u_max = 0, u_min = HUGE_VAL;
-  for(Vertex v : vertices(m.sm))
-    if(!m.sm.is_isolated(v))
-    {
-      u_max = (std::max)(u_max, m.u[v]);
-      u_min = (std::min)(u_min, m.u[v]);
-    }
-  for(Index e = 0; e < surface.number_of_edges(); ++e)
-  {
-    const Vertex i(surface.origin(surface.edge_halfedge(e))), j(surface.target(surface.edge_halfedge(e)));
-    chords.set_length(e, chord(m.on_sphere[i], m.on_sphere[j]));
-    const double scaled = std::exp((m.u[i] + m.u[j]) / 2) * surface.length(e);
-    BOOST_TEST(std::abs(scaled / chords.length(e) - 1) <= tolerance + 4 * unit_roundoff * (std::abs(m.u[i]) + std::abs(m.u[j])));
-  }
-  for(Index e = 0; e < surface.number_of_edges(); ++e)
-    BOOST_TEST(std::abs(CE::length_cross_ratio(chords, e) / CE::length_cross_ratio(surface, e) - 1) <= tolerance);
-  for(Vertex v : vertices(m.sm))
-    if(!m.sm.is_isolated(v))
-      BOOST_TEST(std::abs(m.weight[v] / std::exp(u_min - m.u[v]) - 1) <= 8 * unit_roundoff * (1 + std::abs(u_min) + std::abs(u_max)));
+  check_scaling(m, surface, [&](Vertex i, Vertex j) { return chord(m.on_sphere[i], m.on_sphere[j]); }, tolerance);
 }
 
 void check_conformality(const Maps& m) { check_conformality(m, CE::import_mesh(m.sm).triangulation); }
@@ -238,38 +197,6 @@ void check_sphere(const Maps& m, const Report& report)
 }
 
 // --- the overlay --------------------------------------------------------------------------------
-
-// Barycentric coordinates of a vertex of the overlay in a face of the input.
-Point barycentric(const Refinement& refinement, const CE::Intrinsic_triangulation<>& input, Index f, Index v)
-{
-  Point result = {{0, 0, 0}};
-  const auto& parts = refinement.parts;
-  if(v < parts.number_of_input_vertices)
-  {
-    std::size_t found = 0;
-    for(Index k = 0; k < 3; ++k)
-      if(input.origin(3 * f + k) == v)
-      {
-        result[k] = 1;
-        ++found;
-      }
-    BOOST_TEST(found == 1u);
-    return result;
-  }
-  const auto& x = parts.crossings[v - parts.number_of_input_vertices];
-  BOOST_TEST((x.input_parameter >= 0 && x.input_parameter <= 1));
-  const Index h = input.edge_halfedge(x.input_edge), side = input.face(h) == f ? h : input.twin(h);
-  BOOST_REQUIRE(input.face(side) == f);
-  const double t = side == h ? x.input_parameter : 1 - x.input_parameter;
-  result[side % 3] = 1 - t;
-  result[input.next(side) % 3] = t;
-  return result;
-}
-
-double determinant(const Point& p, const Point& q, const Point& r)
-{
-  return p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
-}
 
 // Triangles, closed, of Euler number 2, and positive.
 void check_parts(const Refinement& refinement)
@@ -301,38 +228,6 @@ void check_parts(const Refinement& refinement)
     BOOST_TEST(std::abs(norm(refinement.points[v]) - 1) <= 2e-16);
 }
 
-// The parts of each face of the input fill it, and nothing else.
-void check_that_parts_fill_faces(const Refinement& refinement, const CE::Intrinsic_triangulation<>& input)
-{
-  const auto& parts = refinement.parts;
-  std::vector<double> area(input.number_of_faces(), 0);
-  std::vector<std::multiset<std::pair<Index, Index> > > along(input.number_of_edges()); // from the origin of its first halfedge
-  for(Index f = 0; f < parts.number_of_faces(); ++f)
-  {
-    const std::size_t c = parts.first_corner[f];
-    const Index in = parts.input_face[f];
-    const double a = determinant(barycentric(refinement, input, in, parts.corner_vertex[c]),
-                                 barycentric(refinement, input, in, parts.corner_vertex[c + 1]),
-                                 barycentric(refinement, input, in, parts.corner_vertex[c + 2]));
-    BOOST_TEST(a >= -4 * unit_roundoff);
-    area[in] += a;
-    for(std::size_t k = 0; k < 3; ++k)
-    {
-      const Index h = parts.corner_halfedge[c + k], i = parts.corner_vertex[c + k], j = parts.corner_vertex[c + (k + 1) % 3];
-      if(h == parts.null_index)
-        continue;
-      BOOST_TEST(input.face(h) == in);
-      along[input.edge(h)].insert(h == input.edge_halfedge(input.edge(h)) ? std::make_pair(i, j) : std::make_pair(j, i));
-    }
-  }
-  for(double a : area)
-    BOOST_TEST(std::abs(a - 1) <= 1e-12);
-  // cut in the same way from both sides: the map is continuous
-  for(const auto& segments : along)
-    for(const auto& segment : segments)
-      BOOST_TEST(segments.count(segment) == 2u);
-}
-
 // All points in one face of the input and one of the polyhedron are mapped by one projective map: whatever relation holds
 // between barycentric coordinates of four of them holds between their homogeneous coordinates w p. Returns in how many cells that was tested well.
 std::size_t check_projective_maps(const Refinement& refinement, const CE::Intrinsic_triangulation<>& input)
@@ -351,7 +246,7 @@ std::size_t check_projective_maps(const Refinement& refinement, const CE::Intrin
       const std::array<Index, 4> corner = {{v[n - 3], v[n - 2], v[n - 1], v[n]}};
       std::array<Point, 4> b;
       for(std::size_t i = 0; i < 4; ++i)
-        b[i] = barycentric(refinement, input, cell.first.first, corner[i]);
+        b[i] = barycentric(refinement.parts, input, cell.first.first, corner[i]);
       const double relation[4] = { determinant(b[1], b[2], b[3]), -determinant(b[0], b[2], b[3]),
                                    determinant(b[0], b[1], b[3]), -determinant(b[0], b[1], b[2]) };
       double residual[3] = { 0, 0, 0 }, size = 0, largest = 0;
@@ -374,7 +269,7 @@ std::size_t check_projective_maps(const Refinement& refinement, const CE::Intrin
 void check_refinement(const Refinement& refinement, const CE::Intrinsic_triangulation<>& input)
 {
   check_parts(refinement);
-  check_that_parts_fill_faces(refinement, input);
+  check_that_parts_fill_faces(refinement.parts, input);
   BOOST_TEST(check_projective_maps(refinement, input) > 0u);
 }
 
@@ -392,26 +287,6 @@ Soup octahedron()
 }
 
 // A sphere moved about, so that its triangles are no longer Delaunay everywhere.
-Soup distorted_sphere(int levels, double noise, unsigned seed)
-{
-  Soup soup = scaled(icosphere(levels), 1.3, 1, .8);
-  add_noise(soup, noise, seed);
-  return soup;
-}
-
-// Random heights on a long body: thin triangles that need flips.
-Soup needles(unsigned seed)
-{
-  Soup soup = icosphere(2);
-  Random random(seed);
-  for(Point& p : soup.points)
-  {
-    const double r = std::exp(random(-.5, .5));
-    p = {{5 * r * p[0], r * p[1], .4 * r * p[2]}};
-  }
-  return soup;
-}
-
 // A hexahedron with flat quads; bit k of `diagonals` says how the quad k is cut.
 Soup hexahedron(const Point& x, const Point& y, const Point& z, unsigned diagonals)
 {

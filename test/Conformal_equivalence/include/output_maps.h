@@ -1,14 +1,13 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Meshes with all the maps that flatten() can write, so filled that they show whether it did; for the tests of the doors.
+// Meshes with all the maps that flatten(), map_to_sphere() or map_to_disk() can write, so filled that they show whether these did.
 
 #ifndef CGAL_TEST_CONFORMAL_EQUIVALENCE_OUTPUT_MAPS_H
 #define CGAL_TEST_CONFORMAL_EQUIVALENCE_OUTPUT_MAPS_H
 
 #include "flattened_meshes.h"
 
-#include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@ namespace testing {
 /// what no result is
 constexpr double unwritten = 77;
 
+// For layouts.
 struct Output_maps
 {
   Mesh sm;
@@ -49,25 +49,30 @@ struct Output_maps
   }
 };
 
-// And those with which a border is prescribed.
-struct Border_maps : Output_maps
+// For images of the vertices, on a sphere or in a disk.
+template <typename Image_point>
+struct Image_maps
 {
-  Mesh::Property_map<Vertex, double> angle, fixed_u;
-  Mesh::Property_map<Vertex, bool> is_fixed;
+  Mesh sm;
+  Image_point unwritten_image;
+  Mesh::Property_map<Vertex, Image_point> image;
+  Mesh::Property_map<Vertex, double> u, weight;
 
-  explicit Border_maps(const Mesh& mesh) : Output_maps(mesh)
+  Image_maps(const Mesh& mesh, const Image_point& unwritten_image) : sm(mesh), unwritten_image(unwritten_image)
   {
-    angle = sm.add_property_map<Vertex, double>("v:angle", 0).first;
-    fixed_u = sm.add_property_map<Vertex, double>("v:fixed_u", 0).first;
-    is_fixed = sm.add_property_map<Vertex, bool>("v:is_fixed", false).first;
+    image = sm.add_property_map<Vertex, Image_point>("v:image", unwritten_image).first;
+    u = sm.add_property_map<Vertex, double>("v:u", unwritten).first;
+    weight = sm.add_property_map<Vertex, double>("v:weight", unwritten).first;
   }
-  explicit Border_maps(const Soup& soup) : Border_maps(surface_mesh<Mesh>(soup)) {}
+  Image_maps(const Image_maps&) = delete;
 
-  template <typename NamedParameters = decltype(CGAL::parameters::gradient_tolerance(1e-12))>
-  CGAL::Conformal_equivalence::Flattening_report<Mesh>
-  flatten(const NamedParameters& np = CGAL::parameters::gradient_tolerance(1e-12))
+  auto parameters() const { return CGAL::parameters::log_scale_factor_map(u).projective_weight_map(weight); }
+
+  bool is_untouched(Vertex v) const { return image[v] == unwritten_image && u[v] == unwritten && weight[v] == unwritten; }
+  bool is_untouched() const
   {
-    return CGAL::Conformal_equivalence::flatten(sm, uv, CGAL::Conformal_equivalence::combine_named_parameters(np, parameters()));
+    const auto range = vertices(sm);
+    return std::all_of(range.begin(), range.end(), [&](Vertex v) { return is_untouched(v); });
   }
 };
 

@@ -1,0 +1,38 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// How exactly the tests expect what the package computes, and why so.
+
+#ifndef CGAL_TEST_CONFORMAL_EQUIVALENCE_TOLERANCES_H
+#define CGAL_TEST_CONFORMAL_EQUIVALENCE_TOLERANCES_H
+
+namespace testing {
+
+// What one rounding to double changes at most, relatively: 2^-53.
+constexpr double unit_roundoff = 1.1102230246251565e-16;
+
+// Relative, of a few products and one exponential or square root, each rounded.
+constexpr double few_roundings = 9 * unit_roundoff;
+
+// Radians: the residual at which the solver may stop, unless it is told otherwise. Angle sums at given vertices are right up to this.
+constexpr double solver_tolerance = 1e-12;
+
+// In u, where the metric given is the one asked for already: no step is made, or one that only rounding makes, of the sum of some six angles. Their
+// rounding, 6 pi 2^-53, is divided by the smallest eigenvalue of the Hessian, which is about 1/4 on the small surfaces of the tests.
+constexpr double unmoved_u = 1e-14;
+
+// In u, where the solution is known. Newton's method doubles the number of digits with each step, so that the last one leaves rounding only: 2^-53
+// times the condition number of the Hessian (10), which is below 1000 for the some hundred vertices and the shapes of triangles of the tests.
+constexpr double rounded_u = 1e-13;
+
+// In u, where two ways to the solution are compared, or triangles are thin, and the last step may have ended just below the solver's
+// tolerance: that tolerance divided by the smallest eigenvalue of the Hessian, and what rounding adds.
+constexpr double solved_u = 1e-12;
+
+// Radians: the angle sums of a layout, in coordinates. Six angles or more around a vertex, each of coordinates that have been rounded in the unit of
+// the whole layout, which is as wide as some tens of edges.
+constexpr double layout_angle = 1e-11;
+
+} // namespace testing
+
+#endif // CGAL_TEST_CONFORMAL_EQUIVALENCE_TOLERANCES_H
