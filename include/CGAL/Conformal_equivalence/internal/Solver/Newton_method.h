@@ -10,12 +10,6 @@
 // accurately as the step deserves (inexact Newton). The value of E is never
 // needed: it is too large to tell small steps apart. What is needed of it along a
 // step is its derivative, -r(u + t d).d / 2.
-//
-// Where there are lower bounds b on u, a step is the minimizer of the quadratic model of E
-// among the d >= b - u (sequential quadratic programming): what is minimized is convex, so that such a step
-// goes downhill too, and the active bounds are soon those of the solution. The quadratic program is solved by
-// block principal pivoting (J. J. Judice and F. M. Pires, 1994): the primal-dual active-set method, which ends after a
-// few rounds, made finite for every positive definite matrix.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NEWTON_METHOD_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NEWTON_METHOD_H
@@ -24,8 +18,11 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Abstract_energy.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Active_set.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Lower_bounds.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Trust_region.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
@@ -54,8 +51,8 @@ public:
   Newton_method(Abstract_energy& energy, Laplacian_solver& solver,
                 const Vertex_vector& target, const Newton_options& options,
                 Statistics& statistics, const Any_visitor& visitor, const Lower_bounds& bounds = Lower_bounds())
-    : energy_(energy), solver_(solver), target_(target), bounds_(bounds), options_(options),
-      statistics_(statistics), visitor_(visitor)
+    : energy_(energy), solver_(solver), target_(target), options_(options), statistics_(statistics), visitor_(visitor),
+      model_(energy, solver, statistics), active_set_(bounds, model_, options.tolerance), region_(model_)
   {}
 
   // Improves u until the residual is within the tolerance or the rounding floor.
@@ -64,10 +61,10 @@ public:
   {
     if(!lift(u) || !evaluate(u, residual_))
       return Status::ITERATIONS_EXHAUSTED;
-    hold_active(u, 0);
+    active_set_.hold_active(u, residual_, 0);
     for(std::size_t iteration = 0; ; ++iteration)
     {
-      const double size = violation(u);
+      const double size = active_set_.violation(u, residual_);
       record(iteration, size);
       if(size <= (std::max)(options_.tolerance, rounding_floor()))
         return Status::OK;
@@ -84,14 +81,14 @@ public:
       if(!stepped)
         return size <= 10 * rounding_floor() ? Status::OK : Status::ITERATIONS_EXHAUSTED;
       ++statistics_.number_of_iterations;
-      if(!bounds_.empty() && bounds_.settle(u))
+      if(active_set_.settle(u))
         evaluate(u, residual_);
     }
   }
 
 private:
   // (where bounds are active, residuals may grow on the way)
-  bool is_careful() const { return options_.is_careful && bounds_.empty(); }
+  bool is_careful() const { return options_.is_careful && active_set_.empty(); }
 
   // Has the residual been the same for a while? Where triangles are not broken it is not, unless steps come to nothing by rounding.
   bool has_stopped() const
@@ -138,58 +135,10 @@ private:
     return is_finite;
   }
 
-  // How far u is from the minimum: the largest entry of r, of which only positive ones count where a bound is active.
-  double violation(const Vertex_vector& u) const
-  {
-    if(bounds_.empty())
-      return largest_entry(residual_);
-    double result = 0;
-    for(std::uint32_t v = 0; v < u.size(); ++v)
-      result = (std::max)(result, is_at_bound(u, v, 0) ? residual_[v] : std::abs(residual_[v]));
-    return result;
-  }
-
-  bool is_at_bound(const Vertex_vector& u, std::uint32_t v, double distance) const
-  {
-    return u[v] - bounds_.bound[v] <= distance;
-  }
-
-  // Holds the vertices at their bounds, or as near to them, that are not pulled off, and at least one of each component
-  // that rests on its bounds.
-  void hold_active(const Vertex_vector& u, double distance)
-  {
-    if(bounds_.empty())
-      return;
-    const double infinity = std::numeric_limits<double>::infinity();
-    active_.assign(u.size(), 0);
-    for(std::uint32_t v = 0; v < u.size(); ++v)
-      active_[v] = is_at_bound(u, v, distance) && residual_[v] <= 0;
-    for(const std::uint32_t v : bounds_.largest([&](std::uint32_t w) { return active_[w] ? infinity : bounds_.bound[w] - u[w]; }))
-      active_[v] = 1;
-    solver_.hold(active_);
-  }
-
-  // Makes u satisfy the bounds, by a change that is as harmonic as can be.
+  // Makes u satisfy the bounds. Returns whether that was possible.
   bool lift(Vertex_vector& u)
   {
-    if(bounds_.empty())
-      return true;
-    bounds_.settle(u);
-    bool is_feasible = true;
-    for(std::size_t v = 0; v < u.size(); ++v)
-      is_feasible = is_feasible && u[v] >= bounds_.bound[v];
-    if(is_feasible)
-      return true;
-    if(!evaluate(u, residual_))
-      return false;
-    residual_.assign(u.size(), 0.);
-    hold_active(u, 0);
-    Vertex_vector d;
-    if(!bounded_step(u, 1e-3, d))
-      return false;
-    for(std::size_t v = 0; v < u.size(); ++v)
-      u[v] = (std::max)(u[v] + d[v], bounds_.bound[v]);
-    return true;
+    return active_set_.is_feasible(u) || (evaluate(u, residual_) && active_set_.lift(u));
   }
 
   // Below this a residual cannot be told from rounding. It is of interest, and
@@ -236,102 +185,11 @@ private:
   bool newton_direction(const Vertex_vector& u, Vertex_vector& d)
   {
     const double eta = forcing_term();
-    if(!bounds_.empty())
-      return (bounded_step(u, eta, d) && dot(residual_, d) > 0) || (bounded_step(u, 1e-6 * eta, d) && dot(residual_, d) > 0);
-    return solve_linear(residual_, eta, d)
+    if(!active_set_.empty())
+      return (active_set_.step(u, residual_, eta, d) && dot(residual_, d) > 0)
+          || (active_set_.step(u, residual_, 1e-6 * eta, d) && dot(residual_, d) > 0);
+    return model_.solve(residual_, eta, d)
         && (dot(residual_, d) > 0 || (solver_.precondition(residual_, d) && dot(residual_, d) > 0));
-  }
-
-  // A d = b. Returns whether there was a factor for it.
-  bool solve_linear(const Vertex_vector& b, double eta, Vertex_vector& d)
-  {
-    const std::size_t few = 15, many = 200;
-    bool converged = false;
-    std::size_t count = solver_.conjugate_gradients(energy_.weights(), b, eta, few, d, converged);
-    statistics_.number_of_linear_iterations += count;
-    if(converged)
-      return true;
-    if(!solver_.factorize(energy_.weights()))
-      return false;
-    count = solver_.conjugate_gradients(energy_.weights(), b, eta, many, d, converged);
-    statistics_.number_of_linear_iterations += count;
-    return true;
-  }
-
-  // The minimizer of d.A d / 2 - r.d among the d >= b - u: with f = A d - r, the solution of f = 0 where d > b - u, and f >= 0
-  // where d = b - u. Beginning with the vertices held, those that violate one or the other change sides.
-  bool bounded_step(const Vertex_vector& u, double eta, Vertex_vector& d)
-  {
-    const int most = 200;
-    std::size_t least = (std::numeric_limits<std::size_t>::max)();
-    int patience = 10;
-    for(int round = 0; round < most; ++round)
-    {
-      Vertex_vector f;
-      double error = 0;
-      if(!solve_held(u, eta, d, f, error))
-        return false;
-      const std::vector<std::uint32_t> wrong = on_wrong_side(u, d, f, error);
-      if(wrong.empty())
-        break;
-      patience = wrong.size() < least ? 10 : patience - 1;
-      least = (std::min)(least, wrong.size());
-      for(std::size_t i = patience >= 0 ? 0 : wrong.size() - 1; i < wrong.size(); ++i)
-        active_[wrong[i]] = !active_[wrong[i]];
-    }
-    for(std::size_t v = 0; v < u.size(); ++v)
-      d[v] = (std::max)(d[v], bounds_.bound[v] - u[v]);
-    solver_.hold(active_);
-    return true;
-  }
-
-  // d = b - u where held, f = 0 elsewhere up to `error`.
-  bool solve_held(const Vertex_vector& u, double eta, Vertex_vector& d, Vertex_vector& f, double& error)
-  {
-    Vertex_vector held_step(u.size(), 0.);
-    for(std::size_t v = 0; v < u.size(); ++v)
-      if(active_[v])
-        held_step[v] = bounds_.bound[v] - u[v];
-    solver_.hold(active_);
-    Vertex_vector b = solver_.graph().product(energy_.weights(), held_step);
-    for(std::size_t v = 0; v < u.size(); ++v)
-      b[v] = residual_[v] - b[v];
-    solver_.graph().clear_fixed(b);
-    if(!solve_linear(b, eta, d))
-      return false;
-    for(std::size_t v = 0; v < u.size(); ++v)
-      d[v] += held_step[v];
-    solver_.hold_none();
-    f = solver_.graph().product(energy_.weights(), d);
-    for(std::size_t v = 0; v < u.size(); ++v)
-      f[v] -= residual_[v];
-    error = 2 * eta * largest_entry(b) + 0.1 * options_.tolerance;
-    return true;
-  }
-
-  // In a component that rests on its bounds, the f of the vertices held have a positive sum: the largest one is right.
-  std::vector<std::uint32_t> on_wrong_side(const Vertex_vector& u, const Vertex_vector& d, const Vertex_vector& f, double error) const
-  {
-    std::vector<char> is_right(u.size(), 0);
-    const double infinity = std::numeric_limits<double>::infinity();
-    for(const std::uint32_t v : bounds_.largest([&](std::uint32_t w) { return active_[w] ? f[w] : -infinity; }))
-      is_right[v] = active_[v];
-    std::vector<std::uint32_t> result;
-    for(std::uint32_t v = 0; v < u.size(); ++v)
-      if(bounds_.has(v) && !is_right[v] && (active_[v] ? f[v] < -error : d[v] < bounds_.bound[v] - u[v]))
-        result.push_back(v);
-    return result;
-  }
-
-  // u + t d, not below the bounds.
-  void step(const Vertex_vector& u, double t, const Vertex_vector& d, Vertex_vector& trial) const
-  {
-    for(std::size_t v = 0; v < u.size(); ++v)
-      trial[v] = u[v] + t * d[v];
-    if(bounds_.empty())
-      return;
-    for(std::size_t v = 0; v < u.size(); ++v)
-      trial[v] = active_[v] && t == 1 ? bounds_.bound[v] : (std::max)(trial[v], bounds_.bound[v]);
   }
 
   // How steeply E may rise at the end of a step, relative to its fall at the start. Where nothing was gained for a while, not
@@ -363,7 +221,7 @@ private:
     const double first = (std::min)(1., longest / largest_entry(d));
     for(double t = first; t > 1e-6 * first; )
     {
-      step(u, t, d, trial);
+      active_set_.move(u, t, d, trial);
       const bool is_finite = evaluate(trial, r);
       double slope_there = is_finite ? dot(r, d) : -std::numeric_limits<double>::infinity();
       if(is_finite && is_careful() && relax_outliers(t, trial, r))
@@ -421,37 +279,33 @@ private:
     if(energy_.broken_faces().empty() && largest_entry(residual_) < 1e-6)
       return false;
     is_lost_ = true;
-    radius_ = 0;
+    region_.reset();
     energy_.evaluate(Vertex_vector(u.size(), 0.));
     const bool has_factor = solver_.factorize(energy_.weights());
     evaluate(u, residual_);
     return has_factor && trust_region_step(u);
   }
 
-  // Newton-Steihaug (T. Steihaug, 1983): conjugate gradients, left at the boundary
-  // of a ball in the norm of the preconditioner. The decrease of 2 E is the
-  // integral of r along the step, by the trapezoidal rule.
+  // A step of Newton-Steihaug. The decrease of 2 E is the integral of r along the step, by the trapezoidal rule. Every attempt that fails makes
+  // the region at least four times smaller, which after `most_attempts` is less than u can be told apart.
   bool trust_region_step(Vertex_vector& u)
   {
+    const int most_attempts = 60;
     Vertex_vector trial(u.size()), r;
-    double near_bound = (std::min)(1e-3, bounds_.empty() ? 0 : violation(u));
-    for(int attempt = 0; attempt < 60; ++attempt, near_bound /= 4)
+    double distance = active_set_.empty() ? 0 : (std::min)(1e-3, active_set_.violation(u, residual_)); // of bounds that count as active
+    for(int attempt = 0; attempt < most_attempts; ++attempt, distance /= 4)
     {
-      Vertex_vector d, ad;
-      hold_active(u, near_bound);
-      if(!steihaug_direction(d))
+      Vertex_vector d;
+      active_set_.hold_active(u, residual_, distance);
+      if(!region_.find_step(residual_, forcing_term(), d))
         return false;
-      project(u, d);
-      ad = solver_.graph().product(energy_.weights(), d);
-      const double predicted = dot(residual_, d) - dot(d, ad) / 2;
-      step(u, 1, d, trial);
+      active_set_.project(u, d);
+      const double predicted = dot(residual_, d) - dot(d, model_.product(d)) / 2;
+      active_set_.move(u, 1, d, trial);
       const bool is_finite = evaluate(trial, r);
       const double actual = is_finite && predicted > 0 ? (dot(residual_, d) + dot(r, d)) / 2 : -1;
       const double ratio = predicted > 0 ? actual / predicted : -1;
-      if(ratio > 0.75 && at_boundary_)
-        radius_ *= 2;
-      else if(!(ratio > 0.25))
-        radius_ = 0.25 * (std::min)(radius_, step_norm_);
+      region_.adapt(ratio);
       if(ratio > 0.1)
       {
         u.swap(trial);
@@ -459,104 +313,27 @@ private:
         return true;
       }
       evaluate(u, residual_);
-      if(!(radius_ > 0))
+      if(region_.is_empty())
         return false;
     }
     return false;
   }
 
-  // Ends the step d at the bounds, and moves the vertices held to theirs (D. P. Bertsekas, 1982).
-  void project(const Vertex_vector& u, Vertex_vector& d)
-  {
-    if(bounds_.empty())
-      return;
-    for(std::size_t v = 0; v < u.size(); ++v)
-      d[v] = active_[v] ? bounds_.bound[v] - u[v] : (std::max)(d[v], bounds_.bound[v] - u[v]);
-    solver_.hold_none();
-  }
-
-  bool steihaug_direction(Vertex_vector& d)
-  {
-    const std::size_t n = residual_.size(), most = 300, few = 15;
-    const std::vector<double>& w = energy_.weights();
-    for(bool refactored = false; ; refactored = true)
-    {
-      Vertex_vector r = residual_, z, p;
-      if(!bounds_.empty())
-        solver_.graph().clear_fixed(r);
-      if(!bounds_.empty() && largest_entry(r) == 0)
-      {
-        d.assign(n, 0.);
-        return true;
-      }
-      d.assign(n, 0.);
-      at_boundary_ = false;
-      if(!solver_.precondition(r, z))
-        return false;
-      p = z;
-      double rz = dot(r, z);
-      if(radius_ == 0)
-        radius_ = 2 * std::sqrt(rz);
-      const double goal = rz * forcing_term() * forcing_term();
-      double dd = 0, dp = 0, pp = rz; // squares and products in the norm of the preconditioner
-      for(std::size_t k = 0; k < most; ++k)
-      {
-        if(k == few && !refactored)
-          break;
-        ++statistics_.number_of_linear_iterations;
-        const Vertex_vector q = solver_.graph().product(w, p);
-        const double curvature = dot(p, q);
-        const double step = rz / curvature;
-        const double dd_next = dd + 2 * step * dp + step * step * pp;
-        if(!(curvature > 1e-14 * rz) || dd_next >= radius_ * radius_)
-        {
-          const double tau = (-dp + std::sqrt((std::max)(0., dp * dp + pp * (radius_ * radius_ - dd)))) / pp;
-          for(std::size_t v = 0; v < n; ++v)
-            d[v] += tau * p[v];
-          at_boundary_ = true;
-          step_norm_ = radius_;
-          return dot(residual_, d) > 0;
-        }
-        for(std::size_t v = 0; v < n; ++v)
-        {
-          d[v] += step * p[v];
-          r[v] -= step * q[v];
-        }
-        if(!solver_.precondition(r, z))
-          return false;
-        const double rz_next = dot(r, z), beta = rz_next / rz;
-        dd = dd_next;
-        dp = beta * (dp + step * pp);
-        pp = rz_next + beta * beta * pp;
-        rz = rz_next;
-        step_norm_ = std::sqrt(dd);
-        if(rz <= goal || k + 1 == most)
-          return dot(residual_, d) > 0;
-        for(std::size_t v = 0; v < n; ++v)
-          p[v] = z[v] + beta * p[v];
-      }
-      if(!solver_.factorize(w))
-        return false;
-      radius_ = (std::max)(radius_, 1e-300);
-    }
-  }
-
   Abstract_energy& energy_;
   Laplacian_solver& solver_;
   const Vertex_vector& target_;
-  const Lower_bounds bounds_;
   const Newton_options options_;
   Statistics& statistics_;
   const Any_visitor& visitor_;
+  Quadratic_model model_;
+  Active_set active_set_;
+  Trust_region region_;
   Vertex_vector residual_;
-  std::vector<char> active_; // the vertices whose bounds are thought to be active
   double floor_ = 0;
   double least_ = std::numeric_limits<double>::infinity(); // residual, in steps of at least one half
   std::size_t last_gain_ = 0;                              // the iteration when it was found
   static constexpr double least_reach = 5;
   double reach_ = least_reach;        // of a step in u, where it is bounded
-  double radius_ = 0, step_norm_ = 0; // of the trust region
-  bool at_boundary_ = false;
   bool is_lost_ = false; // line search has failed among broken triangles
 };
 

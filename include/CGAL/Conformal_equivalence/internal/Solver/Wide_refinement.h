@@ -15,6 +15,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Lower_bounds.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 
 #include <algorithm>
@@ -161,10 +162,13 @@ private:
     Vertex_vector right = residual.entries, d;
     linear_.graph().clear_fixed(right);
     bool converged;
-    const std::size_t few = 30, many = 200;
-    result.statistics.number_of_linear_iterations += linear_.conjugate_gradients(w, right, accuracy, few, d, converged);
+    // more than in Newton's method: there are many digits to gain, and a residual in the wide type saved is worth a few iterations
+    const std::size_t worth_a_factorization = 2 * iterations_worth_a_factorization;
+    const std::size_t most_with_new_factor = 200; // only ends what rounding keeps from converging
+    result.statistics.number_of_linear_iterations +=
+      linear_.conjugate_gradients(w, right, accuracy, worth_a_factorization, d, converged);
     if(!converged && linear_.factorize(w))
-      result.statistics.number_of_linear_iterations += linear_.conjugate_gradients(w, right, accuracy, many, d, converged);
+      result.statistics.number_of_linear_iterations += linear_.conjugate_gradients(w, right, accuracy, most_with_new_factor, d, converged);
     scales_.center(d);
     for(std::uint32_t v = 0; v < d.size(); ++v)
       if(d[v] != 0)
@@ -202,7 +206,10 @@ private:
     std::vector<char> active(u.size(), 0);
     for(std::uint32_t v = 0; v < u.size(); ++v)
       active[v] = u[v] <= bounds_.bound[v];
-    for(int attempt = 0; attempt < 20; ++attempt)
+    // Newton's method has left only bounds open that double cannot decide, which one or two attempts settle; more are made only where
+    // bounds change sides in circles.
+    const int most_attempts = 20;
+    for(int attempt = 0; attempt < most_attempts; ++attempt)
     {
       Conformal_conditions<NT> equalities = conditions_;
       for(std::uint32_t v = 0; v < u.size(); ++v)
