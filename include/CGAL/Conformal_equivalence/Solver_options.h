@@ -31,7 +31,8 @@ struct Solver_options
   Newton_strategy newton_strategy = Newton_strategy::LINE_SEARCH;   ///< how steps are kept from going too far
   Retriangulation retriangulation = Retriangulation::WHEN_NEEDED;   ///< whether edges may be flipped
   Border_edges border_edges = Border_edges::FLIPPABLE;              ///< whether border edges may be flipped, too
-  /// whether the triangulation is one that Ptolemy flips have led to: flips then go on from the beginning, and it is not tried as it is.
+
+  /// Whether the triangulation is one that Ptolemy flips have led to: flips then go on from the beginning, and it is not tried as it is.
   /// (No named parameter says so.)
   bool has_come_from_flips = false;
   std::vector<double> initial_log_scale_factors; ///< where to begin, by vertex; empty: at the last solution
@@ -42,6 +43,7 @@ struct Solver_options
 ///
 /// reads the options among the named parameters of `Conformal_metric_solver::solve()`; others are not looked at.
 ///
+/// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters"
 /// \param number_of_vertices of the triangulation, over whose vertices an `initial_log_scale_factor_map` is read. Linear time if there is one.
 template <typename NamedParameters>
 Solver_options read_solver_options(const NamedParameters& np, std::size_t number_of_vertices)

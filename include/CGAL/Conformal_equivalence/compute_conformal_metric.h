@@ -107,8 +107,7 @@ public:
   ///     \cgalParamDefault{`Retriangulation::WHEN_NEEDED`}
   ///   \cgalParamNEnd
   ///   \cgalParamNBegin{border_edges}
-  ///     \cgalParamDescription{whether border edges may be flipped, where there is no metric with only edges inside flipped;
-  ///                          `Conformal_metric::lost_border_edges` tells which were}
+  ///     \cgalParamDescription{whether border edges may be flipped, where there is no metric with only edges inside flipped; `Conformal_metric::lost_border_edges` tells which were}
   ///     \cgalParamType{`Border_edges`}
   ///     \cgalParamDefault{`Border_edges::FLIPPABLE`}
   ///   \cgalParamNEnd

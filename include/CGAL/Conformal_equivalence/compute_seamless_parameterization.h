@@ -92,8 +92,7 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 ///     \cgalParamDefault{`CGAL_PI / 2`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{number_of_tiles}
-///     \cgalParamDescription{the area of the layout, about: of the nearby sizes and all rotations those with the least distortion are taken. If
-///       triangles are inverted by the deformation, there will be twice as many, or more}
+///     \cgalParamDescription{the area of the layout, about: of the nearby sizes and all rotations those with the least distortion are taken. If triangles are inverted by the deformation, there will be twice as many, or more}
 ///     \cgalParamType{`std::size_t`}
 ///     \cgalParamDefault{as few as `maximum_distortion` allows}
 ///   \cgalParamNEnd

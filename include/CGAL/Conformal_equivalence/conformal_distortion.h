@@ -340,20 +340,17 @@ void include_given_log_scale_factors(const TriangleMesh& tm, const NamedParamete
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map}
 ///     \cgalParamDescription{the points of the vertices, which define the metric}
-///     \cgalParamType{a model of `ReadablePropertyMap` with key
-///       `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a `Point_3` as value}
+///     \cgalParamType{a model of `ReadablePropertyMap` with key `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a `Point_3` as value}
 ///     \cgalParamDefault{`boost::get(CGAL::vertex_point, tm)`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{edge_length_map}
 ///     \cgalParamDescription{the edge lengths; if given, the points are not read}
-///     \cgalParamType{a model of `ReadablePropertyMap` with key
-///       `boost::graph_traits<TriangleMesh>::%edge_descriptor` and a value convertible to `double`}
+///     \cgalParamType{a model of `ReadablePropertyMap` with key `boost::graph_traits<TriangleMesh>::%edge_descriptor` and a value convertible to `double`}
 ///     \cgalParamDefault{the distances of the points}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{log_scale_factor_map}
 ///     \cgalParamDescription{u, of which the range is reported; only read here}
-///     \cgalParamType{a model of `ReadablePropertyMap` with key
-///       `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type `double`}
+///     \cgalParamType{a model of `ReadablePropertyMap` with key `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type `double`}
 ///     \cgalParamDefault{u is recovered at every corner of a face by Equation (5)}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd

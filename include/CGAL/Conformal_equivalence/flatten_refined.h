@@ -52,8 +52,7 @@ namespace Conformal_equivalence {
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{input_face_map}
 ///     \cgalParamDescription{receives the face of `tm` that a face of `refined` is a part of}
-///     \cgalParamType{a writable property map with key type `boost::graph_traits<RefinedMesh>::%face_descriptor` and value type
-///       `boost::graph_traits<TriangleMesh>::%face_descriptor`}
+///     \cgalParamType{a writable property map with key type `boost::graph_traits<RefinedMesh>::%face_descriptor` and value type `boost::graph_traits<TriangleMesh>::%face_descriptor`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd

@@ -52,8 +52,7 @@ namespace Conformal_equivalence {
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map}
 ///     \cgalParamDescription{receives the points}
-///     \cgalParamType{a read-write property map with key type `boost::graph_traits<RefinedMesh>::%vertex_descriptor` and as value type a `Point_3`
-///       that can be made from three coordinates}
+///     \cgalParamType{a read-write property map with key type `boost::graph_traits<RefinedMesh>::%vertex_descriptor` and as value type a `Point_3` that can be made from three coordinates}
 ///     \cgalParamDefault{`get(CGAL::vertex_point, out)`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{projective_weight_map}

@@ -34,14 +34,12 @@ namespace Conformal_equivalence {
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{border_angle_map}
 ///     \cgalParamDescription{the angle sums at border vertices, in radians: pi is straight}
-///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to
-///       `double`}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to `double`}
 ///     \cgalParamDefault{none: the border is natural, it keeps its lengths}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{cone_angle_map}
 ///     \cgalParamDescription{the angle sums at interior vertices, in radians}
-///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to
-///       `double`}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to `double`}
 ///     \cgalParamDefault{2 pi everywhere}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_is_constrained_map}
@@ -52,8 +50,7 @@ namespace Conformal_equivalence {
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{prescribed_log_scale_factor_map}
 ///     \cgalParamDescription{u where it is fixed}
-///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to
-///       `double`}
+///     \cgalParamType{a readable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type convertible to `double`}
 ///     \cgalParamDefault{0 everywhere}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
