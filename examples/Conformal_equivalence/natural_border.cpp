@@ -34,6 +34,11 @@ int main(int argc, char* argv[])
 
   // The border is natural: it keeps its lengths.
   const halfedge_descriptor bhd = PMP::longest_border(sm).first;
+  if(bhd == Mesh::null_halfedge())
+  {
+    std::cerr << "The mesh has no border: " << filename << std::endl;
+    return EXIT_FAILURE;
+  }
   auto uv = sm.add_property_map<vertex_descriptor, Point_2>("v:uv").first;
 
   const SMP::Error_code e = SMP::parameterize(sm, SMP::Conformal_equivalence_parameterizer_3<Mesh>(), bhd, uv);

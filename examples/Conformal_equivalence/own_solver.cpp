@@ -77,6 +77,11 @@ int main(int argc, char* argv[])
     std::cerr << "Invalid input: " << filename << std::endl;
     return EXIT_FAILURE;
   }
+  if(PMP::longest_border(sm).first == Mesh::null_halfedge())
+  {
+    std::cerr << "The mesh has no border: " << filename << std::endl;
+    return EXIT_FAILURE;
+  }
   Progress_visitor patient{100}, impatient{2};
   if(flatten(sm, patient) != SMP::OK)
     return EXIT_FAILURE;

@@ -31,6 +31,11 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
   const halfedge_descriptor bhd = PMP::longest_border(sm).first;
+  if(bhd == Mesh::null_halfedge())
+  {
+    std::cerr << "The mesh has no border: " << filename << std::endl;
+    return EXIT_FAILURE;
+  }
 
   auto uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   auto angle = sm.add_property_map<vertex_descriptor, double>("v:border_angle", 0).first;

@@ -72,14 +72,15 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
   for(const auto& cone : report.cones)
-    std::cout << "cone of " << cone.angle * 180 / CGAL_PI << " degrees at (" << cone.lattice_point[0] << ", " << cone.lattice_point[1] << ")" << std::endl;
+    std::cout << "cone of " << cone.angle * 180 / CGAL_PI << " degrees at ("
+              << cone.lattice_point[0] << ", " << cone.lattice_point[1] << ")" << std::endl;
   std::cout << report.tiling.number_of_tiles << " tiles; deformed by a mean quasi-conformal factor of " << report.tiling.mean_distortion
             << (report.tiling.is_closest ? ", the least one for its size" : "") << std::endl;
 
   const std::size_t number_of_flipped_triangles = CE::verify_layout(sm, uv).number_of_flipped_triangles;
   const bool seamless = is_seamless(sm, uv, report), colours = keeps_colours(report);
-  std::cout << report.transitions.size() << " seam edges: " << (seamless ? "" : "not ") << "seamless, for a checkerboard, too: " << (colours ? "yes" : "no")
-            << "; flipped triangles: " << number_of_flipped_triangles << std::endl;
+  std::cout << report.transitions.size() << " seam edges: " << (seamless ? "" : "not ") << "seamless, for a checkerboard, too: "
+            << (colours ? "yes" : "no") << "; flipped triangles: " << number_of_flipped_triangles << std::endl;
   if(!seamless || !colours || number_of_flipped_triangles > 0)
     return EXIT_FAILURE;
   return CE::IO::write_OBJ("seamless_closed.obj", sm, uv) ? EXIT_SUCCESS : EXIT_FAILURE;

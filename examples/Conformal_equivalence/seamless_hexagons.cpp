@@ -55,8 +55,8 @@ Point_2 centre_of_tile(const Point_2& p)
   return da > db && da > dc ? Point_2(-b - c, b) : db > dc ? Point_2(a, -a - c) : Point_2(a, b);
 }
 
-// A honeycomb, with all symmetries of the lattice: whether the centre of a face is in the wall of its cell. Distances from the middle of a tile are at
-// most 1 / 2 in the directions of its neighbours, 1, theta and theta^2.
+// A honeycomb, with all symmetries of the lattice: whether the centre of a face is in the wall of its cell.
+// Distances from the middle of a tile are at most 1 / 2 in the directions of its neighbours, 1, theta and theta^2.
 bool is_in_wall(const Mesh& sm, const UV_map& uv, face_descriptor f)
 {
   const halfedge_descriptor h = halfedge(f, sm);
@@ -86,7 +86,8 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
   for(const auto& cone : report.cones)
-    std::cout << "cone of " << cone.angle * 180 / CGAL_PI << " degrees in a cell with " << std::lround(cone.angle / (CGAL_PI / 3)) << " corners" << std::endl;
+    std::cout << "cone of " << cone.angle * 180 / CGAL_PI << " degrees in a cell with "
+              << std::lround(cone.angle / (CGAL_PI / 3)) << " corners" << std::endl;
 
   if(!is_seamless(sm, uv, report))
   {
@@ -109,8 +110,8 @@ int main(int argc, char* argv[])
     if(!is_in_wall(sm, uv, f))
       cells.insert(part[f]);
 
-  // Each cell has the area of a hexagon, apart from those with a cone. By the formula of Gauss and Bonnet these lack the area of two hexagons if the surface
-  // is a sphere.
+  // Each cell has the area of a hexagon, apart from those with a cone. By the formula of Gauss and Bonnet these
+  // lack the area of two hexagons if the surface is a sphere.
   std::cout << cells.size() << " cells, with the area of " << report.tiling.number_of_tiles << " hexagons" << std::endl;
   if(CGAL::is_closed(sm) && cells.size() != std::size_t(std::lround(report.tiling.number_of_tiles)) + 2)
   {

@@ -8,8 +8,8 @@
 // --sphere: the vertices of the output are points of the unit sphere; --disk: the layout is inscribed to the unit circle. Both may be of a
 // refinement of the input. --flips: edges were flipped on the way, so that cross ratios are not those of the input. --lost N: exactly N
 // triangles are not positive.
-// --seamless N: the layout is one of tiles with rotations by multiples of 2 pi / N (4 if it is not given), which is checked exactly; for 3 and 6 its coordinates
-// are those of the lattice. Such a layout may have been deformed: nothing else is checked.
+// --seamless N: the layout is one of tiles with rotations by multiples of 2 pi / N (4 if it is not given), which is checked exactly;
+// for 3 and 6 its coordinates are those of the lattice. Such a layout may have been deformed: nothing else is checked.
 // Exit status: 0 the output is a discretely conformal flattening, or map to the sphere or the disk, or a seamless layout, of the input, 1 it is
 // not, 2 something cannot be read. See include/check_flattening.h, include/check_image.h and include/check_seams.h.
 

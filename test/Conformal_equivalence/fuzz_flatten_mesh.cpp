@@ -18,6 +18,9 @@
 #include "include/check_flattening.h"
 
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/flatten_mesh.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/messages.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/read_soup.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/Triangle_soup.h"
 
 #include <CGAL/assertions_behaviour.h>
 
@@ -119,30 +122,30 @@ public:
   {
     std::random_device random;
     do
-      m_path = fs::temp_directory_path() / ("fuzz_flatten_mesh_" + std::to_string(random()));
-    while(! fs::create_directory(m_path));
+      path_ = fs::temp_directory_path() / ("fuzz_flatten_mesh_" + std::to_string(random()));
+    while(! fs::create_directory(path_));
   }
-  ~Folder() { std::error_code ignored; fs::remove_all(m_path, ignored); }
+  ~Folder() { std::error_code ignored; fs::remove_all(path_, ignored); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  std::string operator/(const std::string& name) const { return (m_path / name).string(); }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
 
   void write(const std::string& name, const std::string& content) const
   {
-    std::ofstream(m_path / name, std::ios::binary) << content;
+    std::ofstream(path_ / name, std::ios::binary) << content;
   }
 
   std::string content(const std::string& name) const
   {
-    std::ifstream in(m_path / name, std::ios::binary);
+    std::ifstream in(path_ / name, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   }
 
   std::set<std::string> files() const
   {
     std::set<std::string> names;
-    for(const auto& entry : fs::directory_iterator(m_path))
+    for(const auto& entry : fs::directory_iterator(path_))
       names.insert(entry.path().filename().string());
     return names;
   }
@@ -150,11 +153,11 @@ public:
   void clear() const
   {
     for(const std::string& name : files())
-      fs::remove_all(m_path / name);
+      fs::remove_all(path_ / name);
   }
 
 private:
-  fs::path m_path;
+  fs::path path_;
 };
 
 // A value of an option: up to the first zero byte, and not endless.
@@ -199,10 +202,13 @@ constexpr std::uint8_t cone_choice(Cones cones, int number, Tiles tiles = BY_DIS
 
 inline std::vector<std::string> cone_arguments(const Input& input, const Folder& folder)
 {
-  const std::string file = "--cones=" + (folder / "cones.txt"), placed = "--cones=auto=" + std::to_string(1 + input.choices[CONES] / NUMBER_OF_CONES % 8);
-  const std::vector<std::vector<std::string> > of_cones = { {}, { file }, { placed }, { file, "--quantize" }, { placed, "--quantize=60" }, { placed, "--seamless" },
+  const std::string file = "--cones=" + (folder / "cones.txt"),
+                    placed = "--cones=auto=" + std::to_string(1 + input.choices[CONES] / NUMBER_OF_CONES % 8);
+  const std::vector<std::vector<std::string> > of_cones = {
+    {}, { file }, { placed }, { file, "--quantize" }, { placed, "--quantize=60" }, { placed, "--seamless" },
     { file, "--seamless" }, { "--cones=auto", "--max-scale=1", "--max-area=20", "--seamless" } };
-  const std::vector<std::vector<std::string> > of_tiles = { { "--distortion=1.1" }, { "--tiles=50" }, { "--quantize=60", "--lattice-coordinates" }, { "--quantize=180" } };
+  const std::vector<std::vector<std::string> > of_tiles = {
+    { "--distortion=1.1" }, { "--tiles=50" }, { "--quantize=60", "--lattice-coordinates" }, { "--quantize=180" } };
   std::vector<std::string> result = of_cones[cones(input)];
   if(is_seamless(input))
     for(const std::string& a : of_tiles[input.choices[CONES] / (8 * NUMBER_OF_CONES) % NUMBER_OF_TILES])
@@ -668,7 +674,7 @@ inline std::vector<Input> valid_inputs()
 class Mutator
 {
 public:
-  explicit Mutator(std::uint64_t seed) : m_random(seed) {}
+  explicit Mutator(std::uint64_t seed) : random_(seed) {}
 
   // Another surface, which can be read, or a few changes, of which some leave the mesh valid.
   void mutate(Input& input)
@@ -687,7 +693,7 @@ public:
       }
   }
 
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(m_random() % n); }
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
 
 private:
   // --- surfaces ---
@@ -896,7 +902,7 @@ private:
     }
   }
 
-  std::mt19937_64 m_random;
+  std::mt19937_64 random_;
 };
 
 // ------------------------------------------------------------------------------------------------

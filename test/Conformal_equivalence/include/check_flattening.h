@@ -242,11 +242,11 @@ class Checker
 {
 public:
   Checker(const Surface& input, const Surface& output, const Tolerances& tolerances, const Cones& cones)
-    : m_input(input), m_output(output), m_tolerances(tolerances), m_cones(cones)
+    : input_(input), output_(output), tolerances_(tolerances), cones_(cones)
   {
-    m_verdict.expected_not_positive = tolerances.lost_triangles;
-    m_verdict.same_mesh = input.points == output.points && input.faces == output.faces && ! output.texture.empty();
-    if(! m_verdict.same_mesh)
+    verdict_.expected_not_positive = tolerances.lost_triangles;
+    verdict_.same_mesh = input.points == output.points && input.faces == output.faces && ! output.texture.empty();
+    if(! verdict_.same_mesh)
       return;
     divide_by_weights();
     check_orientations();
@@ -259,7 +259,7 @@ public:
       check_weights();
   }
 
-  const Verdict& verdict() const { return m_verdict; }
+  const Verdict& verdict() const { return verdict_; }
 
 private:
   typedef std::array<Real, 3> Lengths; // lengths[k] of the edge from corner k to corner k + 1
@@ -267,108 +267,108 @@ private:
   void divide_by_weights()
   {
     std::array<double, 2> lower{{HUGE_VAL, HUGE_VAL}}, upper{{-HUGE_VAL, -HUGE_VAL}};
-    for(const auto& t : m_output.texture)
+    for(const auto& t : output_.texture)
     {
-      m_layout.push_back({{ t[0] / t[2], t[1] / t[2] }});
+      layout_.push_back({{ t[0] / t[2], t[1] / t[2] }});
       for(std::size_t k = 0; k < 2; ++k)
       {
-        lower[k] = (std::min)(lower[k], m_layout.back()[k]);
-        upper[k] = (std::max)(upper[k], m_layout.back()[k]);
+        lower[k] = (std::min)(lower[k], layout_.back()[k]);
+        upper[k] = (std::max)(upper[k], layout_.back()[k]);
       }
     }
-    m_diameter = std::hypot(upper[0] - lower[0], upper[1] - lower[1]);
+    diameter_ = std::hypot(upper[0] - lower[0], upper[1] - lower[1]);
   }
 
   void check_orientations()
   {
     typedef CGAL::Exact_predicates_inexact_constructions_kernel::Point_2 Point;
-    const auto point = [&](std::size_t i) { return Point(m_layout[i][0], m_layout[i][1]); };
-    for(const auto& c : m_output.corners)
+    const auto point = [&](std::size_t i) { return Point(layout_[i][0], layout_[i][1]); };
+    for(const auto& c : output_.corners)
     {
-      const bool is_finite = std::isfinite(m_layout[c[0]][0] + m_layout[c[1]][0] + m_layout[c[2]][0]
-                                         + m_layout[c[0]][1] + m_layout[c[1]][1] + m_layout[c[2]][1]);
+      const bool is_finite = std::isfinite(layout_[c[0]][0] + layout_[c[1]][0] + layout_[c[2]][0]
+                                         + layout_[c[0]][1] + layout_[c[1]][1] + layout_[c[2]][1]);
       if(! is_finite || CGAL::orientation(point(c[0]), point(c[1]), point(c[2])) != CGAL::LEFT_TURN)
-        ++m_verdict.not_positive_triangles;
+        ++verdict_.not_positive_triangles;
     }
   }
 
   void measure_lengths()
   {
-    for(std::size_t f = 0; f < m_input.faces.size(); ++f)
+    for(std::size_t f = 0; f < input_.faces.size(); ++f)
     {
       Lengths in, out;
       for(std::size_t k = 0; k < 3; ++k)
       {
-        const auto& p = m_input.points[m_input.faces[f][k]];
-        const auto& q = m_input.points[m_input.faces[f][(k + 1) % 3]];
+        const auto& p = input_.points[input_.faces[f][k]];
+        const auto& q = input_.points[input_.faces[f][(k + 1) % 3]];
         in[k] = std::hypot(Real(q[0]) - p[0], Real(q[1]) - p[1], Real(q[2]) - p[2]);
-        const auto& a = m_layout[m_output.corners[f][k]];
-        const auto& b = m_layout[m_output.corners[f][(k + 1) % 3]];
+        const auto& a = layout_[output_.corners[f][k]];
+        const auto& b = layout_[output_.corners[f][(k + 1) % 3]];
         out[k] = std::hypot(Real(b[0]) - a[0], Real(b[1]) - a[1]);
       }
-      m_in.push_back(in);
-      m_out.push_back(out);
+      in_.push_back(in);
+      out_.push_back(out);
     }
   }
 
   Real tolerance(Real stated, Real shortest) const
   {
-    return (std::max)(stated, 16 * std::ldexp(Real(1), -53) * m_diameter / shortest);
+    return (std::max)(stated, 16 * std::ldexp(Real(1), -53) * diameter_ / shortest);
   }
 
   // the edge k of the face f, seen from there: (length towards the apex) / (length from it)
   static Real half_cross_ratio(const Lengths& l, std::size_t k) { return l[(k + 1) % 3] / l[(k + 2) % 3]; }
 
-  // m_other[3 f + k] is the other side of the edge k of the face f
+  // other_[3 f + k] is the other side of the edge k of the face f
   void pair_edges()
   {
     std::unordered_map<std::uint64_t, std::size_t> side_of; // of each directed edge
     const auto key = [](std::size_t i, std::size_t j) { return (std::uint64_t(i) << 32) | std::uint64_t(j); };
-    side_of.reserve(3 * m_input.faces.size());
-    for(std::size_t s = 0; s < 3 * m_input.faces.size(); ++s)
+    side_of.reserve(3 * input_.faces.size());
+    for(std::size_t s = 0; s < 3 * input_.faces.size(); ++s)
       side_of[key(vertex(s), vertex(next(s)))] = s;
-    for(std::size_t s = 0; s < 3 * m_input.faces.size(); ++s)
+    for(std::size_t s = 0; s < 3 * input_.faces.size(); ++s)
     {
       const auto other = side_of.find(key(vertex(next(s)), vertex(s)));
-      m_other.push_back(other == side_of.end() ? none : other->second);
+      other_.push_back(other == side_of.end() ? none : other->second);
     }
   }
 
   static std::size_t next(std::size_t side) { return side - side % 3 + (side + 1) % 3; }
-  std::size_t vertex(std::size_t side) const { return m_input.faces[side / 3][side % 3]; }
-  const std::array<double, 2>& place(std::size_t side) const { return m_layout[m_output.corners[side / 3][side % 3]]; }
+  std::size_t vertex(std::size_t side) const { return input_.faces[side / 3][side % 3]; }
+  const std::array<double, 2>& place(std::size_t side) const { return layout_[output_.corners[side / 3][side % 3]]; }
 
   void check_edges()
   {
     Real least = std::numeric_limits<Real>::infinity(), largest = 0, loosest = 0;
-    for(std::size_t s = 0; s < m_other.size(); ++s)
+    for(std::size_t s = 0; s < other_.size(); ++s)
     {
       const std::size_t f = s / 3, k = s % 3;
-      if(m_other[s] == none)
+      if(other_[s] == none)
       {
-        ++m_verdict.border_edges;
-        const Real scale = m_out[f][k] / m_in[f][k];
+        ++verdict_.border_edges;
+        const Real scale = out_[f][k] / in_[f][k];
         least = (std::min)(least, scale);
         largest = (std::max)(largest, scale);
-        loosest = (std::max)(loosest, tolerance(m_tolerances.border_scale, m_out[f][k]));
+        loosest = (std::max)(loosest, tolerance(tolerances_.border_scale, out_[f][k]));
       }
-      else if(s < m_other[s])
-        check_interior_edge(f, k, m_other[s] / 3, m_other[s] % 3);
+      else if(s < other_[s])
+        check_interior_edge(f, k, other_[s] / 3, other_[s] % 3);
     }
-    if(m_tolerances.border_keeps_its_lengths && m_verdict.border_edges != 0)
-      m_verdict.border_scale.insert(largest / least - 1, loosest);
+    if(tolerances_.border_keeps_its_lengths && verdict_.border_edges != 0)
+      verdict_.border_scale.insert(largest / least - 1, loosest);
   }
 
   void check_interior_edge(std::size_t f, std::size_t k, std::size_t g, std::size_t m)
   {
-    ++m_verdict.interior_edges;
-    const Lengths &a = m_out[f], &b = m_out[g];
+    ++verdict_.interior_edges;
+    const Lengths &a = out_[f], &b = out_[g];
     const Real shortest = (std::min)({a[0], a[1], a[2], b[0], b[1], b[2]});
     // both triangles seen from the same side: what leads to the apex of one leads from the apex of the other
-    const Real in = half_cross_ratio(m_in[f], k) * half_cross_ratio(m_in[g], m);
+    const Real in = half_cross_ratio(in_[f], k) * half_cross_ratio(in_[g], m);
     const Real out = half_cross_ratio(a, k) * half_cross_ratio(b, m);
-    m_verdict.cross_ratio.insert(std::abs(out / in - 1), tolerance(m_tolerances.cross_ratio, shortest));
-    m_verdict.two_sides.insert(std::abs(a[k] / b[m] - 1), tolerance(m_tolerances.two_sides, (std::min)(a[k], b[m])));
+    verdict_.cross_ratio.insert(std::abs(out / in - 1), tolerance(tolerances_.cross_ratio, shortest));
+    verdict_.two_sides.insert(std::abs(a[k] / b[m] - 1), tolerance(tolerances_.two_sides, (std::min)(a[k], b[m])));
   }
 
   void check_weights()
@@ -377,15 +377,15 @@ private:
     std::size_t n = 0;
     const auto log_scale = [&](std::size_t f, std::size_t k)
     {
-      const Real w = m_output.texture[m_output.corners[f][k]][2], x = m_output.texture[m_output.corners[f][(k + 1) % 3]][2];
-      return std::log(m_out[f][k] / m_in[f][k]) + (std::log(w) + std::log(x)) / 2;
+      const Real w = output_.texture[output_.corners[f][k]][2], x = output_.texture[output_.corners[f][(k + 1) % 3]][2];
+      return std::log(out_[f][k] / in_[f][k]) + (std::log(w) + std::log(x)) / 2;
     };
-    for(std::size_t f = 0; f < m_input.faces.size(); ++f)
+    for(std::size_t f = 0; f < input_.faces.size(); ++f)
       for(std::size_t k = 0; k < 3; ++k, ++n)
         sum += log_scale(f, k);
-    for(std::size_t f = 0; f < m_input.faces.size(); ++f)
+    for(std::size_t f = 0; f < input_.faces.size(); ++f)
       for(std::size_t k = 0; k < 3; ++k)
-        m_verdict.weights.insert(std::abs(log_scale(f, k) - sum / Real(n)), tolerance(m_tolerances.weights, m_out[f][k]));
+        verdict_.weights.insert(std::abs(log_scale(f, k) - sum / Real(n)), tolerance(tolerances_.weights, out_[f][k]));
   }
 
   struct Vertex
@@ -406,35 +406,35 @@ private:
 
   void check_angles()
   {
-    std::vector<Vertex> vertices(m_input.points.size());
-    for(std::size_t s = 0; s < m_other.size(); ++s)
+    std::vector<Vertex> vertices(input_.points.size());
+    for(std::size_t s = 0; s < other_.size(); ++s)
     {
       Vertex& v = vertices[vertex(s)];
-      const Lengths& l = m_out[s / 3];
+      const Lengths& l = out_[s / 3];
       v.angle += angle(s);
       v.shortest = (std::min)({v.shortest, l[s % 3], l[(s + 2) % 3]});
       ++v.faces;
-      if(m_other[s] == none)
+      if(other_[s] == none)
         v.is_on_border = vertices[vertex(next(s))].is_on_border = true;
     }
     for(std::size_t i = 0; i < vertices.size(); ++i)
     {
       const Vertex& v = vertices[i];
-      const auto cone = m_cones.find(i);
+      const auto cone = cones_.find(i);
       if(! v.is_interior())
         continue;
-      ++m_verdict.interior_vertices;
-      const Real bound = (std::max)(m_tolerances.angle, Real(v.faces) * tolerance(0, v.shortest));
-      if(cone == m_cones.end())
-        m_verdict.angle.insert(std::abs(v.angle - 2 * pi), bound);
+      ++verdict_.interior_vertices;
+      const Real bound = (std::max)(tolerances_.angle, Real(v.faces) * tolerance(0, v.shortest));
+      if(cone == cones_.end())
+        verdict_.angle.insert(std::abs(v.angle - 2 * pi), bound);
       else if(cone->second)
-        m_verdict.cone_angle.insert(std::abs(v.angle - *cone->second), bound);
+        verdict_.cone_angle.insert(std::abs(v.angle - *cone->second), bound);
     }
-    m_verdict.cones = m_cones.size();
-    for(const auto& cone : m_cones)
+    verdict_.cones = cones_.size();
+    for(const auto& cone : cones_)
     {
-      m_verdict.free_cones += ! cone.second;
-      m_verdict.cones_not_inside += cone.first >= vertices.size() || ! vertices[cone.first].is_interior();
+      verdict_.free_cones += ! cone.second;
+      verdict_.cones_not_inside += cone.first >= vertices.size() || ! vertices[cone.first].is_interior();
     }
   }
 
@@ -455,14 +455,14 @@ private:
 
   bool sides_coincide(std::size_t s) const
   {
-    const std::size_t o = m_other[s];
+    const std::size_t o = other_[s];
     return o != none && place(s) == place(next(o)) && place(next(s)) == place(o);
   }
 
   std::vector<Box> boxes_of_pieces() const
   {
     std::vector<Box> boxes;
-    std::vector<bool> is_seen(m_input.faces.size(), false);
+    std::vector<bool> is_seen(input_.faces.size(), false);
     std::vector<std::size_t> stack;
     const auto visit = [&](std::size_t f)
     {
@@ -483,7 +483,7 @@ private:
         {
           boxes.back().insert(place(s));
           if(sides_coincide(s))
-            visit(m_other[s] / 3);
+            visit(other_[s] / 3);
         }
       }
     }
@@ -493,24 +493,24 @@ private:
   void check_pieces()
   {
     std::vector<Box> boxes = boxes_of_pieces();
-    m_verdict.pieces = boxes.size();
+    verdict_.pieces = boxes.size();
     std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.lower[0] < b.lower[0]; });
     for(std::size_t i = 0; i < boxes.size(); ++i)
       for(std::size_t j = i + 1; j < boxes.size() && boxes[j].lower[0] < boxes[i].upper[0]; ++j)
-        m_verdict.overlapping_pieces += boxes[i].overlaps(boxes[j], 0) && boxes[i].overlaps(boxes[j], 1);
+        verdict_.overlapping_pieces += boxes[i].overlaps(boxes[j], 0) && boxes[i].overlaps(boxes[j], 1);
   }
 
   static constexpr std::size_t none = std::size_t(-1);
 
-  const Surface& m_input;
-  const Surface& m_output;
-  Tolerances m_tolerances;
-  Cones m_cones;
-  Verdict m_verdict;
-  std::vector<std::array<double, 2> > m_layout;
-  std::vector<Lengths> m_in, m_out;
-  std::vector<std::size_t> m_other;
-  Real m_diameter = 0;
+  const Surface& input_;
+  const Surface& output_;
+  Tolerances tolerances_;
+  Cones cones_;
+  Verdict verdict_;
+  std::vector<std::array<double, 2> > layout_;
+  std::vector<Lengths> in_, out_;
+  std::vector<std::size_t> other_;
+  Real diameter_ = 0;
 };
 
 inline Verdict check_flattening(const Surface& input, const Surface& output, const Tolerances& tolerances = Tolerances(),

@@ -84,44 +84,44 @@ class Image_checker
 {
 public:
   Image_checker(const Surface& input, const Surface& output, const Image_tolerances& tolerances)
-    : m_input(input), m_output(output), m_tolerances(tolerances)
+    : input_(input), output_(output), tolerances_(tolerances)
   {
-    m_verdict.expected_not_positive = tolerances.lost_triangles;
+    verdict_.expected_not_positive = tolerances.lost_triangles;
   }
 
   Image_verdict sphere()
   {
-    m_verdict.expected_characteristic = 2;
-    m_verdict.is_refined = m_output.faces != m_input.faces;
-    m_verdict.same_mesh = m_verdict.is_refined ? m_output.points.size() >= m_input.points.size()
-                                               : m_output.points.size() == m_input.points.size();
-    if(! m_verdict.same_mesh || ! check_surface())
-      return m_verdict;
+    verdict_.expected_characteristic = 2;
+    verdict_.is_refined = output_.faces != input_.faces;
+    verdict_.same_mesh = verdict_.is_refined ? output_.points.size() >= input_.points.size()
+                                               : output_.points.size() == input_.points.size();
+    if(! verdict_.same_mesh || ! check_surface())
+      return verdict_;
     Real sum = 0;
-    for(const auto& f : m_output.faces)
+    for(const auto& f : output_.faces)
     {
       const Point p = point(f[0]), q = point(f[1]), r = point(f[2]);
-      m_verdict.not_positive_triangles += ! (is_finite(f) && is_positive(p, q, r));
+      verdict_.not_positive_triangles += ! (is_finite(f) && is_positive(p, q, r));
       sum += solid_angle(f);
     }
-    m_verdict.turn.insert(std::abs(sum - 4 * pi), 1e-6L);
+    verdict_.turn.insert(std::abs(sum - 4 * pi), 1e-6L);
     check_points();
-    if(! m_verdict.is_refined && ! m_tolerances.edges_were_flipped)
+    if(! verdict_.is_refined && ! tolerances_.edges_were_flipped)
       check_cross_ratios();
-    return m_verdict;
+    return verdict_;
   }
 
   Image_verdict disk()
   {
-    m_verdict.expected_characteristic = 1;
-    m_verdict.may_have_border = true;
-    m_verdict.is_refined = m_output.faces != m_input.faces;
-    m_verdict.same_mesh = m_output.points.size() >= m_input.points.size() && ! m_output.texture.empty()
-      && std::equal(m_input.points.begin(), m_input.points.end(), m_output.points.begin())
-      && (m_verdict.is_refined || m_output.points.size() == m_input.points.size());
-    if(! m_verdict.same_mesh || ! check_surface())
-      return m_verdict;
-    for(std::size_t f = 0; f < m_output.faces.size(); ++f)
+    verdict_.expected_characteristic = 1;
+    verdict_.may_have_border = true;
+    verdict_.is_refined = output_.faces != input_.faces;
+    verdict_.same_mesh = output_.points.size() >= input_.points.size() && ! output_.texture.empty()
+      && std::equal(input_.points.begin(), input_.points.end(), output_.points.begin())
+      && (verdict_.is_refined || output_.points.size() == input_.points.size());
+    if(! verdict_.same_mesh || ! check_surface())
+      return verdict_;
+    for(std::size_t f = 0; f < output_.faces.size(); ++f)
     {
       typedef CGAL::Exact_predicates_inexact_constructions_kernel::Point_2 Point_2;
       std::array<Point_2, 3> p;
@@ -132,23 +132,23 @@ public:
         is_good = is_good && std::isfinite(x[0]) && std::isfinite(x[1]);
         p[k] = Point_2(x[0], x[1]);
       }
-      m_verdict.not_positive_triangles += ! (is_good && CGAL::orientation(p[0], p[1], p[2]) == CGAL::LEFT_TURN);
+      verdict_.not_positive_triangles += ! (is_good && CGAL::orientation(p[0], p[1], p[2]) == CGAL::LEFT_TURN);
     }
     check_circle();
-    return m_verdict;
+    return verdict_;
   }
 
 private:
   typedef CGAL::Exact_predicates_inexact_constructions_kernel::Point_3 Point;
   typedef std::pair<std::size_t, std::size_t> Side;
 
-  Point point(std::size_t i) const { return Point(m_output.points[i][0], m_output.points[i][1], m_output.points[i][2]); }
+  Point point(std::size_t i) const { return Point(output_.points[i][0], output_.points[i][1], output_.points[i][2]); }
 
   bool is_finite(const std::array<std::size_t, 3>& f) const
   {
     Real sum = 0;
     for(std::size_t i : f)
-      for(double x : m_output.points[i])
+      for(double x : output_.points[i])
         sum += x;
     return std::isfinite(sum);
   }
@@ -160,7 +160,7 @@ private:
 
   Real solid_angle(const std::array<std::size_t, 3>& f) const
   {
-    const auto &p = m_output.points[f[0]], &q = m_output.points[f[1]], &r = m_output.points[f[2]];
+    const auto &p = output_.points[f[0]], &q = output_.points[f[1]], &r = output_.points[f[2]];
     const auto dot = [](const auto& a, const auto& b) { return Real(a[0]) * b[0] + Real(a[1]) * b[1] + Real(a[2]) * b[2]; };
     // of differences: tiny triangles count, too
     const std::array<Real, 3> a{{ Real(q[0]) - p[0], Real(q[1]) - p[1], Real(q[2]) - p[2] }},
@@ -174,24 +174,24 @@ private:
   {
     std::set<Side> sides;
     std::set<std::size_t> used;
-    for(const auto& f : m_output.faces)
+    for(const auto& f : output_.faces)
       for(std::size_t k = 0; k < 3; ++k)
       {
         used.insert(f[k]);
-        if(f[k] >= m_output.points.size() || ! sides.emplace(f[k], f[(k + 1) % 3]).second)
-          return m_verdict.same_mesh = false;
+        if(f[k] >= output_.points.size() || ! sides.emplace(f[k], f[(k + 1) % 3]).second)
+          return verdict_.same_mesh = false;
       }
     for(const Side& s : sides)
       if(sides.count({s.second, s.first}) == 0)
       {
-        ++m_verdict.border_edges;
-        m_after[s.first] = s.second;
+        ++verdict_.border_edges;
+        after_[s.first] = s.second;
       }
-    const std::size_t edges = (sides.size() + m_verdict.border_edges) / 2;
-    m_verdict.euler_characteristic = long(used.size()) - long(edges) + long(m_output.faces.size());
-    m_is_used.assign(m_output.points.size(), false);
+    const std::size_t edges = (sides.size() + verdict_.border_edges) / 2;
+    verdict_.euler_characteristic = long(used.size()) - long(edges) + long(output_.faces.size());
+    is_used_.assign(output_.points.size(), false);
     for(std::size_t i : used)
-      m_is_used[i] = true;
+      is_used_[i] = true;
     return true;
   }
 
@@ -199,20 +199,20 @@ private:
   {
     std::array<Real, 3> sum{{ 0, 0, 0 }};
     std::size_t n = 0;
-    for(std::size_t i = 0; i < m_output.points.size(); ++i)
+    for(std::size_t i = 0; i < output_.points.size(); ++i)
     {
-      if(! m_is_used[i])
+      if(! is_used_[i])
         continue;
-      const auto& p = m_output.points[i];
-      m_verdict.distance.insert(std::abs(std::hypot(Real(p[0]), Real(p[1]), Real(p[2])) - 1), m_tolerances.sphere);
-      if(i >= m_input.points.size())
+      const auto& p = output_.points[i];
+      verdict_.distance.insert(std::abs(std::hypot(Real(p[0]), Real(p[1]), Real(p[2])) - 1), tolerances_.sphere);
+      if(i >= input_.points.size())
         continue;
       ++n;
       for(std::size_t k = 0; k < 3; ++k)
         sum[k] += p[k];
     }
     for(Real x : sum)
-      m_verdict.barycentre.insert(std::abs(x) / Real(n), m_tolerances.barycentre);
+      verdict_.barycentre.insert(std::abs(x) / Real(n), tolerances_.barycentre);
   }
 
   static Real length(const Surface& s, std::size_t i, std::size_t j)
@@ -225,7 +225,7 @@ private:
   void check_cross_ratios()
   {
     std::map<Side, std::size_t> apex;
-    for(const auto& f : m_input.faces)
+    for(const auto& f : input_.faces)
       for(std::size_t k = 0; k < 3; ++k)
         apex[{f[k], f[(k + 1) % 3]}] = f[(k + 2) % 3];
     for(const auto& side : apex)
@@ -236,46 +236,46 @@ private:
       const std::size_t l = apex[{j, i}];
       const auto cross_ratio = [&](const Surface& s)
         { return length(s, i, l) / length(s, l, j) * (length(s, j, k) / length(s, k, i)); };
-      const auto chord = [&](std::size_t a, std::size_t b) { return length(m_output, a, b); };
+      const auto chord = [&](std::size_t a, std::size_t b) { return length(output_, a, b); };
       const Real shortest = (std::min)({chord(i, j), chord(i, l), chord(l, j), chord(j, k), chord(k, i)});
-      m_verdict.cross_ratio.insert(std::abs(cross_ratio(m_output) / cross_ratio(m_input) - 1),
-                                   m_tolerances.cross_ratio + 16 * std::ldexp(Real(1), -53) / shortest);
-      ++m_verdict.edges;
+      verdict_.cross_ratio.insert(std::abs(cross_ratio(output_) / cross_ratio(input_) - 1),
+                                   tolerances_.cross_ratio + 16 * std::ldexp(Real(1), -53) / shortest);
+      ++verdict_.edges;
     }
   }
 
   std::array<double, 2> place(std::size_t f, std::size_t k) const
   {
-    const auto& t = m_output.texture[m_output.corners[f][k]];
+    const auto& t = output_.texture[output_.corners[f][k]];
     return {{ t[0] / t[2], t[1] / t[2] }};
   }
 
   void check_circle()
   {
-    std::vector<std::array<double, 2> > places(m_output.points.size());
-    for(std::size_t f = 0; f < m_output.faces.size(); ++f)
+    std::vector<std::array<double, 2> > places(output_.points.size());
+    for(std::size_t f = 0; f < output_.faces.size(); ++f)
       for(std::size_t k = 0; k < 3; ++k)
-        places[m_output.faces[f][k]] = place(f, k);
+        places[output_.faces[f][k]] = place(f, k);
     Real turn = 0;
-    for(const auto& side : m_after)
+    for(const auto& side : after_)
     {
       const auto &p = places[side.first], &q = places[side.second];
-      if(side.first < m_input.points.size())
+      if(side.first < input_.points.size())
         // three roundings more where weights were divided out
-        m_verdict.distance.insert(std::abs(std::hypot(Real(p[0]), Real(p[1])) - 1), m_tolerances.circle * (m_output.has_weights ? 4 : 1));
+        verdict_.distance.insert(std::abs(std::hypot(Real(p[0]), Real(p[1])) - 1), tolerances_.circle * (output_.has_weights ? 4 : 1));
       turn += std::atan2(Real(p[0]) * q[1] - Real(p[1]) * q[0], Real(p[0]) * q[0] + Real(p[1]) * q[1]);
     }
     // a chord of more than a half turn counts as what it turns the other way: then the origin is outside of the polygon, and the sum is 0
     const bool has_long_chord = std::abs(turn) < 1;
-    m_verdict.turn.insert(has_long_chord ? std::abs(turn) : std::abs(turn - 2 * pi), 1e-6L);
+    verdict_.turn.insert(has_long_chord ? std::abs(turn) : std::abs(turn - 2 * pi), 1e-6L);
   }
 
-  const Surface& m_input;
-  const Surface& m_output;
-  Image_tolerances m_tolerances;
-  Image_verdict m_verdict;
-  std::map<std::size_t, std::size_t> m_after; // along the border
-  std::vector<bool> m_is_used;
+  const Surface& input_;
+  const Surface& output_;
+  Image_tolerances tolerances_;
+  Image_verdict verdict_;
+  std::map<std::size_t, std::size_t> after_; // along the border
+  std::vector<bool> is_used_;
 };
 
 inline Image_verdict check_sphere(const Surface& input, const Surface& output, const Image_tolerances& tolerances = Image_tolerances())

@@ -3,14 +3,17 @@
 
 // Checks a seamless layout from its file alone, in exact arithmetic. Shares no code with the package.
 //
-// What is checked (Springborn, Schroeder, Pinkall 2008, section 6), for motions z -> e^{2 pi i k / n} z + t of the plane, t a point of the lattice:
-//  - at each interior edge whose two sides lie apart, ONE of these motions takes both ends of one side to those of the other: exactly, as the numbers are stored;
+// What is checked (Springborn, Schroeder, Pinkall 2008, section 6), for motions z -> e^{2 pi i k / n} z + t of the plane, t a point of
+// the lattice:
+//  - at each interior edge whose two sides lie apart, ONE of these motions takes both ends of one side to those of the other: exactly,
+//    as the numbers are stored;
 //  - where two such edges meet at a vertex that is no cone, and not on the border, their motions are the same, so that each path of a cut has one;
-//  - the angles at each interior vertex sum up to a multiple of 2 pi / n; where that is not 2 pi, the vertex is a cone, and all of its places are points of the lattice;
+//  - the angles at each interior vertex sum up to a multiple of 2 pi / n; where that is not 2 pi, the vertex is a cone, and all of its
+//    places are points of the lattice;
 //  - every triangle is positively oriented, by an exact predicate.
 //
-// For n = 2 and 4 the lattice is Z + Z i. For n = 3 and 6 it is Z + Z e^{i pi / 3}, and the coordinates are those of the lattice, (a, b) for a + b e^{i pi / 3}:
-// in them the rotation by 60 degrees is (a, b) -> (-b, a + b).
+// For n = 2 and 4 the lattice is Z + Z i. For n = 3 and 6 it is Z + Z e^{i pi / 3}, and the coordinates are those of the lattice, (a, b)
+// for a + b e^{i pi / 3}: in them the rotation by 60 degrees is (a, b) -> (-b, a + b).
 
 #ifndef CGAL_TEST_CONFORMAL_EQUIVALENCE_CHECK_SEAMS_H
 #define CGAL_TEST_CONFORMAL_EQUIVALENCE_CHECK_SEAMS_H
@@ -75,15 +78,15 @@ class Seam_checker
   };
 
 public:
-  Seam_checker(const Surface& input, const Surface& output, int symmetry) : m_surface(output), m_symmetry(symmetry)
+  Seam_checker(const Surface& input, const Surface& output, int symmetry) : surface_(output), symmetry_(symmetry)
   {
     if(symmetry != 2 && symmetry != 3 && symmetry != 4 && symmetry != 6)
       throw std::runtime_error("there are motions of a lattice for the symmetries 2, 3, 4 and 6 only");
-    m_verdict.symmetry = symmetry;
-    m_verdict.same_mesh = input.points == output.points && input.faces == output.faces && ! output.texture.empty();
-    m_verdict.is_finite = std::all_of(output.texture.begin(), output.texture.end(), [](const std::array<double, 3>& t)
+    verdict_.symmetry = symmetry;
+    verdict_.same_mesh = input.points == output.points && input.faces == output.faces && ! output.texture.empty();
+    verdict_.is_finite = std::all_of(output.texture.begin(), output.texture.end(), [](const std::array<double, 3>& t)
       { return std::isfinite(t[0]) && std::isfinite(t[1]) && t[2] == 1; });
-    if(! m_verdict.same_mesh || ! m_verdict.is_finite)
+    if(! verdict_.same_mesh || ! verdict_.is_finite)
       return;
     pair_sides();
     check_orientations();
@@ -92,15 +95,16 @@ public:
     check_paths();
   }
 
-  const Seam_verdict& verdict() const { return m_verdict; }
+  const Seam_verdict& verdict() const { return verdict_; }
 
   // Of the seam edges at a vertex, each seen from there: by how many quanta the motion from the left to the right side turns, and the translation.
   std::vector<std::array<double, 3> > motions_from(std::size_t v) const
   {
     std::vector<std::array<double, 3> > result;
-    for(std::size_t s = 0; s < m_motion.size(); ++s)
-      if(m_motion[s] && vertex(s) == v)
-        result.push_back({{ double(m_motion[s]->quanta), CGAL::to_double(m_motion[s]->translation[0]), CGAL::to_double(m_motion[s]->translation[1]) }});
+    for(std::size_t s = 0; s < motion_.size(); ++s)
+      if(motion_[s] && vertex(s) == v)
+        result.push_back({{ double(motion_[s]->quanta), CGAL::to_double(motion_[s]->translation[0]),
+                            CGAL::to_double(motion_[s]->translation[1]) }});
     return result;
   }
 
@@ -109,9 +113,9 @@ private:
 
   // The side 3 f + k leads from corner k of the face f to corner k + 1.
   static std::size_t next(std::size_t side) { return side - side % 3 + (side + 1) % 3; }
-  std::size_t vertex(std::size_t side) const { return m_surface.faces[side / 3][side % 3]; }
-  const std::array<double, 3>& place(std::size_t side) const { return m_surface.texture[m_surface.corners[side / 3][side % 3]]; }
-  std::size_t number_of_sides() const { return 3 * m_surface.faces.size(); }
+  std::size_t vertex(std::size_t side) const { return surface_.faces[side / 3][side % 3]; }
+  const std::array<double, 3>& place(std::size_t side) const { return surface_.texture[surface_.corners[side / 3][side % 3]]; }
+  std::size_t number_of_sides() const { return 3 * surface_.faces.size(); }
 
   bool has_same_place(std::size_t s, std::size_t t) const { return place(s)[0] == place(t)[0] && place(s)[1] == place(t)[1]; }
 
@@ -121,13 +125,13 @@ private:
     const auto key = [](std::size_t i, std::size_t j) { return (std::uint64_t(i) << 32) | std::uint64_t(j); };
     for(std::size_t s = 0; s < number_of_sides(); ++s)
       side_of[key(vertex(s), vertex(next(s)))] = s;
-    m_is_on_border.assign(m_surface.points.size(), false);
+    is_on_border_.assign(surface_.points.size(), false);
     for(std::size_t s = 0; s < number_of_sides(); ++s)
     {
       const auto other = side_of.find(key(vertex(next(s)), vertex(s)));
-      m_other.push_back(other == side_of.end() ? none : other->second);
-      if(m_other.back() == none)
-        m_is_on_border[vertex(s)] = m_is_on_border[vertex(next(s))] = true;
+      other_.push_back(other == side_of.end() ? none : other->second);
+      if(other_.back() == none)
+        is_on_border_[vertex(s)] = is_on_border_[vertex(next(s))] = true;
     }
   }
 
@@ -137,16 +141,16 @@ private:
     const auto point = [&](std::size_t s) { return Point(place(s)[0], place(s)[1]); };
     for(std::size_t s = 0; s < number_of_sides(); s += 3)
       if(CGAL::orientation(point(s), point(s + 1), point(s + 2)) != CGAL::LEFT_TURN)
-        ++m_verdict.not_positive_triangles;
+        ++verdict_.not_positive_triangles;
   }
 
   // --- motions -------------------------------------------------------------------------------------------
 
-  bool has_hexagons() const { return m_symmetry % 3 == 0; }
+  bool has_hexagons() const { return symmetry_ % 3 == 0; }
 
   bool is_seam(std::size_t s) const
   {
-    const std::size_t o = m_other[s];
+    const std::size_t o = other_[s];
     return o != none && ! (has_same_place(s, next(o)) && has_same_place(next(s), o));
   }
 
@@ -156,7 +160,7 @@ private:
   Vector turned(Vector p, int quanta) const
   {
     const int smallest = has_hexagons() ? 6 : 4;
-    for(int k = quanta * (smallest / m_symmetry); k > 0; --k)
+    for(int k = quanta * (smallest / symmetry_); k > 0; --k)
       p = has_hexagons() ? Vector{{ -p[1], p[0] + p[1] }} : Vector{{ -p[1], p[0] }};
     return p;
   }
@@ -173,8 +177,8 @@ private:
   // From the side `s` to the other one.
   std::optional<Motion> motion_across(std::size_t s) const
   {
-    const Vector p = exact_place(s), q = exact_place(next(s)), p_image = exact_place(next(m_other[s])), q_image = exact_place(m_other[s]);
-    for(int k = 0; k < m_symmetry; ++k)
+    const Vector p = exact_place(s), q = exact_place(next(s)), p_image = exact_place(next(other_[s])), q_image = exact_place(other_[s]);
+    for(int k = 0; k < symmetry_; ++k)
     {
       const Vector t = difference(p_image, turned(p, k));
       if(t == difference(q_image, turned(q, k)) && is_in_lattice(t))
@@ -185,16 +189,16 @@ private:
 
   void find_motions()
   {
-    m_motion.resize(number_of_sides());
+    motion_.resize(number_of_sides());
     for(std::size_t s = 0; s < number_of_sides(); ++s)
     {
       if(! is_seam(s))
         continue;
-      m_motion[s] = motion_across(s);
-      if(s > m_other[s])
+      motion_[s] = motion_across(s);
+      if(s > other_[s])
         continue;
-      ++m_verdict.seam_edges;
-      m_verdict.edges_without_motion += ! m_motion[s];
+      ++verdict_.seam_edges;
+      verdict_.edges_without_motion += ! motion_[s];
     }
   }
 
@@ -214,46 +218,46 @@ private:
 
   void find_cones()
   {
-    std::vector<Real> sum(m_surface.points.size(), 0);
+    std::vector<Real> sum(surface_.points.size(), 0);
     for(std::size_t s = 0; s < number_of_sides(); ++s)
       sum[vertex(s)] += angle(s);
-    m_is_cone.assign(m_surface.points.size(), false);
+    is_cone_.assign(surface_.points.size(), false);
     for(std::size_t v = 0; v < sum.size(); ++v)
-      if(! m_is_on_border[v] && sum[v] != 0)
+      if(! is_on_border_[v] && sum[v] != 0)
       {
-        const Real quanta = sum[v] / (2 * pi) * m_symmetry, nearest = std::round(quanta);
-        m_verdict.wrong_angles += ! (std::abs(quanta - nearest) < 1e-6L) || ! (nearest >= 1);
-        m_is_cone[v] = nearest != m_symmetry;
-        m_verdict.cones += m_is_cone[v];
+        const Real quanta = sum[v] / (2 * pi) * symmetry_, nearest = std::round(quanta);
+        verdict_.wrong_angles += ! (std::abs(quanta - nearest) < 1e-6L) || ! (nearest >= 1);
+        is_cone_[v] = nearest != symmetry_;
+        verdict_.cones += is_cone_[v];
       }
-    std::vector<bool> is_off(m_is_cone.size(), false);
+    std::vector<bool> is_off(is_cone_.size(), false);
     for(std::size_t s = 0; s < number_of_sides(); ++s)
-      if(m_is_cone[vertex(s)] && ! is_in_lattice(exact_place(s)))
+      if(is_cone_[vertex(s)] && ! is_in_lattice(exact_place(s)))
         is_off[vertex(s)] = true;
-    m_verdict.cones_off_lattice = static_cast<std::size_t>(std::count(is_off.begin(), is_off.end(), true));
+    verdict_.cones_off_lattice = static_cast<std::size_t>(std::count(is_off.begin(), is_off.end(), true));
   }
 
   void check_paths()
   {
-    std::vector<std::vector<std::size_t> > from(m_surface.points.size()); // the seam edges at each vertex, as sides that begin there
+    std::vector<std::vector<std::size_t> > from(surface_.points.size()); // the seam edges at each vertex, as sides that begin there
     for(std::size_t s = 0; s < number_of_sides(); ++s)
       if(is_seam(s))
         from[vertex(s)].push_back(s);
     std::size_t ends = 0;
     for(std::size_t v = 0; v < from.size(); ++v)
-      if(from[v].size() != 2 || m_is_cone[v] || m_is_on_border[v])
+      if(from[v].size() != 2 || is_cone_[v] || is_on_border_[v])
         ends += from[v].size();
-      else if(! (m_motion[from[v][0]] == m_motion[m_other[from[v][1]]]))
-        ++m_verdict.broken_paths;
-    m_verdict.paths = ends / 2;
+      else if(! (motion_[from[v][0]] == motion_[other_[from[v][1]]]))
+        ++verdict_.broken_paths;
+    verdict_.paths = ends / 2;
   }
 
-  const Surface& m_surface;
-  const int m_symmetry;
-  Seam_verdict m_verdict;
-  std::vector<std::size_t> m_other; // the other side of the edge
-  std::vector<bool> m_is_on_border, m_is_cone;
-  std::vector<std::optional<Motion> > m_motion; // by side
+  const Surface& surface_;
+  const int symmetry_;
+  Seam_verdict verdict_;
+  std::vector<std::size_t> other_; // the other side of the edge
+  std::vector<bool> is_on_border_, is_cone_;
+  std::vector<std::optional<Motion> > motion_; // by side
 };
 
 inline Seam_verdict check_seams(const Surface& input, const Surface& output, int symmetry = 4)

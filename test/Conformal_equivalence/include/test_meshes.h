@@ -269,6 +269,75 @@ CGAL::Conformal_equivalence::Intrinsic_triangulation<NT> one_vertex_torus(NT a, 
   return result;
 }
 
+// Six triangles around the origin, and rings around them, at the height z(x, y).
+template <typename Height>
+Soup rings(Index number_of_rings, Height z)
+{
+  Soup soup;
+  const auto add = [&](double r, double phi)
+  {
+    const double x = r * std::cos(phi), y = r * std::sin(phi);
+    soup.points.push_back({{x, y, z(x, y)}});
+  };
+  add(0, 0);
+  Index inner = 0, outer = 1; // the first vertices of two rings
+  for(Index k = 1; k <= number_of_rings; ++k)
+  {
+    for(Index i = 0; i < 6 * k; ++i)
+      add(double(k) / number_of_rings, 2 * pi * i / (6 * k));
+    const Index n = (std::max)(6 * (k - 1), Index(1));
+    for(Index s = 0; s < 6; ++s)
+      for(Index i = 0; i < k; ++i)
+      {
+        const Index a = outer + s * k + i, b = outer + (s * k + i + 1) % (6 * k), c = inner + (s * (k - 1) + i) % n;
+        soup.triangles.push_back({{a, b, c}});
+        if(i + 1 < k)
+          soup.triangles.push_back({{b, inner + (s * (k - 1) + i + 1) % n, c}});
+      }
+    inner = outer;
+    outer += 6 * k;
+  }
+  return soup;
+}
+
+// Squares cut into four triangles each: as symmetric as a square.
+template <typename Height>
+Soup symmetric_grid(Index n, Height z)
+{
+  Soup soup = grid(n, z);
+  soup.triangles.clear();
+  for(Index j = 0; j < n; ++j)
+    for(Index i = 0; i < n; ++i)
+    {
+      const Index a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1, m = Index(soup.points.size());
+      const double x = (i + .5) / n, y = (j + .5) / n;
+      soup.points.push_back({{x, y, z(x, y)}});
+      soup.triangles.insert(soup.triangles.end(), {{{a, b, m}}, {{b, d, m}}, {{d, c, m}}, {{c, a, m}}});
+    }
+  return soup;
+}
+
+// A pyramid over a regular polygon, with a triangle on each of its sides.
+inline Soup star(Index n)
+{
+  Soup soup = cone(n, .5);
+  for(Index i = 0; i < n; ++i)
+  {
+    soup.points.push_back({{2 * std::cos(2 * pi * (i + .5) / n), 2 * std::sin(2 * pi * (i + .5) / n), 0}});
+    soup.triangles.push_back({{1 + (i + 1) % n, 1 + i, 1 + n + i}});
+  }
+  return soup;
+}
+
+inline Soup scaled(Soup soup, double x, double y, double z)
+{
+  for(Point& p : soup.points)
+    p = {{p[0] * x, p[1] * y, p[2] * z}};
+  return soup;
+}
+
+inline Soup scaled(const Soup& soup, double factor) { return scaled(soup, factor, factor, factor); }
+
 } // namespace testing
 
 #endif // CGAL_TEST_CONFORMAL_EQUIVALENCE_TEST_MESHES_H

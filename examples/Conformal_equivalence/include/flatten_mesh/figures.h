@@ -9,44 +9,17 @@
 #include "options.h"
 #include "results.h"
 #include "seamless.h"
-#include "sphere.h"
-#include "Stopwatch.h"
 
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 
-#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
-#  include <nlohmann/json.hpp>
-#endif
-
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#if defined(__unix__) || defined(__APPLE__)
-#  include <sys/resource.h>
-#endif
-
 namespace flattening {
-
-// The largest amount of memory that the program has had, 0 if unknown.
-inline std::size_t peak_memory_bytes()
-{
-#if defined(__APPLE__)
-  rusage usage;
-  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t>(usage.ru_maxrss) : 0;
-#elif defined(__unix__)
-  rusage usage;
-  return getrusage(RUSAGE_SELF, &usage) == 0 ? std::size_t(1024) * static_cast<std::size_t>(usage.ru_maxrss) : 0;
-#else
-  return 0;
-#endif
-}
 
 // Everything that is known at the end.
 struct Figures
@@ -68,351 +41,26 @@ struct Figures
   double reading_seconds = 0, placing_seconds = 0, verifying_seconds = 0, writing_seconds = 0;
 };
 
-inline void find_range_of_u(const Result& result, Figures& figures)
-{
-  const Mesh& mesh = result.mesh;
-  figures.u_min = std::numeric_limits<double>::infinity();
-  figures.u_max = -figures.u_min;
-  for(Vertex v : mesh.vertices())
-    if(mesh.is_isolated(v))
-      ++figures.number_of_isolated_vertices;
-    else
-    {
-      figures.u_min = (std::min)(figures.u_min, result.u[v]);
-      figures.u_max = (std::max)(figures.u_max, result.u[v]);
-    }
-}
+void find_range_of_u(const Result& result, Figures& figures);
 
-inline void describe_made_mesh(const Results& results, bool is_refined, Figures& figures)
-{
-  figures.is_refined = is_refined;
-  figures.number_of_crossings = results.refinement.crossings.size();
-  figures.repair = results.repair;
-  figures.placing_seconds = results.placing_seconds;
-  figures.number_of_made_vertices = results.made.mesh.number_of_vertices();
-  figures.number_of_made_faces = results.made.mesh.number_of_faces();
-}
-
-// What is wrong only because of rounding.
-inline void forget_rounded_triangles(Figures& figures)
-{
-  CE::Layout_verdict<Mesh>& verdict = figures.verdict;
-  figures.number_of_rounded_triangles = verdict.number_of_flipped_triangles + verdict.number_of_degenerate_triangles;
-  verdict.number_of_flipped_triangles = verdict.number_of_degenerate_triangles = 0;
-  verdict.flipped_faces.clear();
-  verdict.degenerate_faces.clear();
-  if(figures.number_of_rounded_triangles != 0)
-    verdict.injectivity = CE::Injectivity::UNDECIDED;
-}
-
-// On the sphere and on the disk all triangles were positive before they were rounded: the verdict is that of the points that are written.
-inline void take_over_verdict(Target target, const Result& drawn, Figures& figures)
-{
-  const Image_figures& image = figures.image;
-  CE::Layout_verdict<Mesh>& verdict = figures.verdict;
-  const bool is_wide = ! drawn.wide_image.empty(), is_sphere = target == Target::SPHERE;
-  verdict.flipped_faces.clear();
-  verdict.degenerate_faces.clear();
-  verdict.number_of_flipped_triangles = image.lost_faces.size() - image.number_of_flat_faces;
-  verdict.number_of_degenerate_triangles = image.number_of_flat_faces;
-  if(! image.lost_faces.empty())
-    verdict.injectivity = CE::Injectivity::NO;
-  else if(is_sphere ? std::abs(image.solid_angle - 4 * CGAL_PI) < 1e-6 : is_wide)
-    verdict.injectivity = CE::Injectivity::YES;
-  if(is_wide)
-    figures.number_of_rounded_triangles = lost_faces(drawn.mesh, drawn.image, is_sphere).size();
-  figures.report.layout_length_error = image.length_error;
-}
+void describe_made_mesh(const Results& results, bool is_refined, Figures& figures);
 
 // `drawn` is what is written: `given`, or what was made of it.
-inline void judge(const Options& options, const Result& given, Result& drawn, Figures& figures)
-{
-  const Stopwatch watch;
-  if(options.target == Target::SPHERE)
-    lay_out_chords(drawn);
-  else
-    figures.verdict = CE::verify_layout(drawn.mesh, drawn.lattice_uv ? *drawn.lattice_uv : drawn.uv);
-  figures.distortion = CE::compute_conformal_distortion(drawn.mesh, drawn.uv);
-  if(options.target != Target::PLANE)
-  {
-    figures.image = judge_image(options, figures.report, given, drawn);
-    take_over_verdict(options.target, drawn, figures);
-  }
-  else if(options.seamless)
-    figures.seams = seam_paths(drawn.mesh, drawn.uv, figures.report);
-  else if(drawn.wide.is_used) // the triangles were found to be positive before they were rounded
-    forget_rounded_triangles(figures);
-  figures.verifying_seconds = watch.seconds();
-}
+void judge(const Options& options, const Result& given, Result& drawn, Figures& figures);
 
-inline double in_degrees(double angle) { return angle / CGAL_PI * 180; }
+// ---- Figures as text
 
-inline const char* injective_text(const Figures& figures)
-{
-  switch(figures.verdict.injectivity)
-  {
-    case CE::Injectivity::YES: return "yes";
-    case CE::Injectivity::NO:  return "no";
-    default:                   return "undecided";
-  }
-}
-
-inline std::string status_text(const Figures& figures)
-{
-  return figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? "CONVERGED_TO_ROUNDING" : "OK";
-}
-
-inline std::string count(std::size_t n, const char* singular, const char* plural)
-{
-  return text(n, ' ', n == 1 ? singular : plural);
-}
+std::string count(std::size_t n, const char* singular, const char* plural);
 
 typedef std::vector<std::pair<std::string, std::string> > Lines;
 
-// What a disk without cones does not have.
-inline void add_topology(const Report& report, Lines& lines)
-{
-  const CE::Surface_topology& t = report.topology;
-  if(! t.is_disk())
-    lines.emplace_back("surface", text(count(t.number_of_components, "component", "components"), ", ",
-                                       count(t.number_of_borders, "border", "borders"), ", genus ", t.genus));
-  const std::size_t n = report.cones.size();
-  const auto free = static_cast<std::size_t>(
-    std::count_if(report.cones.begin(), report.cones.end(), [](const auto& cone) { return cone.is_free; }));
-  if(n != 0)
-    lines.emplace_back("cones", text(n, free == 0 ? "" : free == n ? " free" : text(", ", free, " of them free")));
-  if(! report.flattened_cones.empty())
-    lines.emplace_back("cones made flat", text(report.flattened_cones.size()));
-  if(! report.transitions.empty())
-    lines.emplace_back("seam edges", text(report.transitions.size()));
-  for(const auto& lattice : report.lattices)
-    lines.emplace_back(report.lattices.size() == 1 ? "tau" : text("tau at face ", lattice.face),
-                       text(lattice.tau[0], " + ", lattice.tau[1], " i"));
-}
-
-inline const char* mode_text(const Options& options)
-{
-  if(options.local_repair)
-    return "local repair";
-  switch(options.retriangulation)
-  {
-    case CE::Retriangulation::WHEN_NEEDED: return "when-needed";
-    case CE::Retriangulation::ALWAYS:      return "always";
-    default:                               return "never";
-  }
-}
-
-inline const char* class_text(const CE::Statistics& s)
-{
-  switch(s.conformal_class)
-  {
-    case CE::Conformal_class::GIVEN_TRIANGULATION:    return "given triangulation, flipped";
-    case CE::Conformal_class::REPAIRED:               return "given triangulation, repaired locally";
-    case CE::Conformal_class::DELAUNAY_TRIANGULATION: return "intrinsic Delaunay triangulation, flipped";
-    default:                                          return "fixed triangulation";
-  }
-}
-
-inline const char* target_text(Target target)
-{
-  return target == Target::SPHERE ? "sphere" : target == Target::DISK ? "disk" : "plane";
-}
-
-// What only seamless layouts have.
-inline void add_tiling(const Figures& figures, Lines& lines)
-{
-  const CE::Tiling& t = figures.report.tiling;
-  if(t.symmetry == 0)
-    return;
-  lines.emplace_back("seam paths", text(figures.seams.size()));
-  lines.emplace_back("tiles", text(t.number_of_tiles, has_hexagons(t.symmetry) ? " hexagons" : " squares"));
-  lines.emplace_back("scale and rotation", text(t.scale, ", ", in_degrees(t.rotation), " degrees"));
-  lines.emplace_back("deformation", text("mean ", t.mean_distortion, ", max ", t.maximum_distortion,
-                                         t.is_closest ? "" : " (a smaller one may exist)"));
-}
-
-// What only maps to the sphere and the disk have.
-inline void add_image(Target target, const Figures& figures, Lines& lines)
-{
-  const Image_figures& image = figures.image;
-  const auto add = [&](const char* name, double x) { if(! std::isnan(x)) lines.emplace_back(name, text(x)); };
-  add(target == Target::SPHERE ? "distance from sphere" : "distance from circle", image.distance_from_sphere);
-  add("solid angle / (4 pi)", image.solid_angle / (4 * CGAL_PI));
-  add("barycentre", image.barycentre);
-  add("cross ratio error", image.cross_ratio_error);
-}
-
 // Names and values, for the terminal and the page.
-inline Lines summary(const Options& options, const Mesh& mesh, const Figures& figures)
-{
-  const CE::Statistics& s = figures.report.statistics;
-  Lines lines;
-  lines.emplace_back("mesh", text(mesh.number_of_vertices(), " vertices, ", mesh.number_of_faces(), " triangles"));
-  add_topology(figures.report, lines);
-  add_tiling(figures, lines);
-  if(options.target != Target::PLANE)
-    lines.emplace_back("target", target_text(options.target));
-  if(figures.number_of_isolated_vertices != 0)
-    lines.emplace_back("isolated vertices", text(figures.number_of_isolated_vertices, ", carried through"));
-  lines.emplace_back("solver", text(s.number_of_iterations, " Newton steps, residual ", s.residual, " radians",
-    figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? " (the limit of rounding)" : ""));
-  if(s.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION && s.conformal_class != CE::Conformal_class::REPAIRED)
-    lines.emplace_back("triangulation", text(class_text(s), ": ", s.number_of_flips, " flips", s.is_doubled ? ", on the double" : ""));
-  if(! figures.report.lost_border_edges.empty())
-    lines.emplace_back("border edges flipped", text(figures.report.lost_border_edges.size()));
-  if(figures.repair.number_of_flips + figures.repair.number_of_splits != 0)
-    lines.emplace_back("local repair", text(count(figures.repair.number_of_flips, "flip", "flips"), ", ",
-                                            count(figures.repair.number_of_splits, "split", "splits")));
-  if(figures.number_of_made_faces != 0)
-    lines.emplace_back(figures.is_refined ? "refined mesh" : "repaired mesh",
-                       text(figures.number_of_made_vertices, " vertices, ", figures.number_of_made_faces, " triangles"));
-  lines.emplace_back("log scale factor u", text("from ", figures.u_min, " to ", figures.u_max));
-  lines.emplace_back("quasi-conformal factor", text("mean ", figures.distortion.mean_quasi_conformal_factor,
-                                                     ", max ", figures.distortion.maximum_quasi_conformal_factor));
-  lines.emplace_back("flipped triangles", text(figures.verdict.number_of_flipped_triangles, " (exact)",
-    options.target != Target::PLANE && figures.verdict.number_of_flipped_triangles != 0 ? ", by rounding" : ""));
-  if(figures.verdict.number_of_degenerate_triangles != 0)
-    lines.emplace_back("degenerate triangles", text(figures.verdict.number_of_degenerate_triangles, " (exact)"));
-  if(figures.number_of_rounded_triangles != 0)
-    lines.emplace_back("triangles too small", text(figures.number_of_rounded_triangles, " for double"));
-  lines.emplace_back("injective", injective_text(figures));
-  if(! std::isnan(figures.report.layout_length_error))
-    lines.emplace_back("largest length error", text(figures.report.layout_length_error));
-  if(options.target != Target::PLANE)
-    add_image(options.target, figures, lines);
-  const std::string placing = figures.placing_seconds > 0 ? text(", place ", figures.placing_seconds) : "";
-  lines.emplace_back("seconds", text("read ", figures.reading_seconds, ", import ", s.seconds.import, placing, ", solve ", s.seconds.solve,
-                                     ", cut ", s.seconds.cut, ", lay out ", s.seconds.layout,
-                                     ", verify ", s.seconds.verify + figures.verifying_seconds));
-  return lines;
-}
+Lines summary(const Options& options, const Mesh& mesh, const Figures& figures);
 
-inline void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, const Figures& figures)
-{
-  out << options.input << '\n';
-  for(const auto& line : summary(options, mesh, figures))
-    out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
-  for(const std::string& file : {options.obj, options.svg, options.html, options.report})
-    if(! file.empty())
-      out << "  wrote " << file << '\n';
-}
+void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, const Figures& figures);
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
-inline nlohmann::ordered_json json_cones(const Report& report)
-{
-  auto cones = nlohmann::ordered_json::array();
-  for(const auto& cone : report.cones)
-  {
-    cones.push_back({ {"vertex", cone.vertex_index}, {"angle_degrees", in_degrees(cone.angle)}, {"prescribed", ! cone.is_free} });
-    if(cone.free_angle != 0 && ! cone.is_free)
-      cones.back()["angle_before_degrees"] = in_degrees(cone.free_angle);
-    if(report.tiling.symmetry != 0)
-      cones.back()["lattice"] = cone.lattice_point;
-  }
-  return cones;
-}
-
-inline nlohmann::ordered_json json_flattened_cones(const Report& report)
-{
-  auto vertices = nlohmann::ordered_json::array();
-  for(Vertex v : report.flattened_cones)
-    vertices.push_back(v.idx());
-  return vertices;
-}
-
-inline nlohmann::ordered_json json_seamless(const Figures& figures)
-{
-  const CE::Tiling& t = figures.report.tiling;
-  if(t.symmetry == 0)
-    return nullptr;
-  auto seams = nlohmann::ordered_json::array();
-  for(const Seam_path& path : figures.seams)
-    seams.push_back({ {"from", path.from.idx()}, {"to", path.to.idx()}, {"edges", path.number_of_edges}, {"rotation", path.quanta},
-                      {"translation", path.translation} });
-  nlohmann::ordered_json json = { {"symmetry", t.symmetry}, {"tiles", t.number_of_tiles}, {"scale", t.scale}, {"rotation_degrees", in_degrees(t.rotation)},
-                                  {"distortion", { {"mean", t.mean_distortion}, {"max", t.maximum_distortion} }}, {"closest", t.is_closest},
-                                  {"quasi_conformal_mean", { {"before", t.mean_factor_before}, {"after", t.mean_factor} }} };
-  json["seams"] = std::move(seams);
-  return json;
-}
-
-inline nlohmann::ordered_json json_lattices(const Report& report)
-{
-  auto lattices = nlohmann::ordered_json::array();
-  for(const auto& lattice : report.lattices)
-    lattices.push_back({ {"face", lattice.face}, {"periods", lattice.periods}, {"tau", lattice.tau} });
-  return lattices;
-}
-
-// NaN becomes null.
-inline void add_json_image(const Options& options, const Figures& figures, nlohmann::ordered_json& json)
-{
-  const Image_figures& image = figures.image;
-  json["flipped_by_rounding"] = image.lost_faces.size();
-  json["cross_ratio_error"] = image.cross_ratio_error;
-  if(options.target == Target::DISK)
-    json["unit_circle_error"] = image.distance_from_sphere;
-  else
-  {
-    json["unit_sphere_error"] = image.distance_from_sphere;
-    json["solid_angle"] = image.solid_angle;
-    json["barycentre"] = image.barycentre;
-  }
-}
-
-inline std::string json_report(const Options& options, const Mesh& mesh, const Figures& figures)
-{
-  const CE::Statistics& s = figures.report.statistics;
-  const CE::Surface_topology& t = figures.report.topology;
-  nlohmann::ordered_json json;
-  json["status"] = status_text(figures);
-  json["target"] = target_text(options.target);
-  json["vertices"] = mesh.number_of_vertices();
-  json["faces"] = mesh.number_of_faces();
-  json["isolated_vertices"] = figures.number_of_isolated_vertices;
-  json["genus"] = t.genus;
-  json["borders"] = t.number_of_borders;
-  json["components"] = t.number_of_components;
-  json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips}, {"doubled", s.is_doubled},
-                              {"lost_border_edges", figures.report.lost_border_edges.size()} };
-  json["refinement"] = nullptr;
-  if(figures.is_refined)
-    json["refinement"] = { {"crossings", figures.number_of_crossings}, {"vertices", figures.number_of_made_vertices},
-                           {"faces", figures.number_of_made_faces} };
-  json["local_repair"] = nullptr;
-  if(options.local_repair)
-    json["local_repair"] = { {"flips", figures.repair.number_of_flips}, {"splits", figures.repair.number_of_splits},
-                             {"vertices", figures.number_of_made_vertices}, {"faces", figures.number_of_made_faces} };
-  json["newton_steps"] = s.number_of_iterations;
-  json["pcg_iterations"] = s.number_of_linear_iterations;
-  json["factorizations"] = s.number_of_factorizations;
-  json["precision_bits"] = options.precision_in_bits;
-  json["residual"] = s.residual;
-  json["residual_floor"] = s.residual_floor;
-  json["tolerance"] = options.tolerance;
-  json["u_min"] = figures.u_min;
-  json["u_max"] = figures.u_max;
-  json["cones"] = json_cones(figures.report);
-  json["flattened_cones"] = json_flattened_cones(figures.report);
-  json["seamless"] = json_seamless(figures);
-  json["seam_edges"] = figures.report.transitions.size();
-  json["lattices"] = json_lattices(figures.report);
-  json["quasi_conformal"] = { {"mean", figures.distortion.mean_quasi_conformal_factor},
-                              {"max", figures.distortion.maximum_quasi_conformal_factor} };
-  json["flipped_triangles"] = figures.verdict.number_of_flipped_triangles;
-  json["degenerate_triangles"] = figures.verdict.number_of_degenerate_triangles;
-  json["triangles_lost_in_double"] = figures.number_of_rounded_triangles;
-  json["injective"] = injective_text(figures);
-  json["layout_length_error"] = figures.report.layout_length_error;
-  if(options.target != Target::PLANE)
-    add_json_image(options, figures, json);
-  json["seconds"] = { {"import", figures.reading_seconds + s.seconds.import}, {"place", figures.placing_seconds}, {"solve", s.seconds.solve},
-                      {"cut", s.seconds.cut}, {"layout", s.seconds.layout},
-                      {"verify", s.seconds.verify + figures.verifying_seconds}, {"write", figures.writing_seconds} };
-  json["peak_memory_bytes"] = peak_memory_bytes();
-  json["seed"] = nullptr;
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
+std::string json_report(const Options& options, const Mesh& mesh, const Figures& figures);
 #endif
 
 } // namespace flattening

@@ -10,16 +10,10 @@
 #include "mesh.h"
 
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
-#include <CGAL/Conformal_equivalence/Refined_mesh_elements.h>
-#include <CGAL/Conformal_equivalence/flatten.h>
-#include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
-#include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <array>
 #include <cstddef>
-#include <functional>
-#include <utility>
 #include <vector>
 
 namespace flattening {
@@ -50,69 +44,26 @@ struct Wide_layout
   Wide_refinement refinement;
 };
 
-inline std::array<double, 2> rounded(const CE::Multiprecision_number& x, const CE::Multiprecision_number& y)
-{
-  return {{ static_cast<double>(x), static_cast<double>(y) }};
-}
+std::array<double, 2> rounded(const CE::Multiprecision_number& x, const CE::Multiprecision_number& y);
 
 // The refinement that is drawn.
-inline CE::Common_refinement<double> rounded(const Wide_refinement& wide)
-{
-  CE::Common_refinement<double> result;
-  result.number_of_input_vertices = wide.number_of_input_vertices;
-  for(const Wide_refinement::Crossing& x : wide.crossings)
-    result.crossings.push_back({x.input_edge, static_cast<double>(x.input_parameter), x.flat_edge, static_cast<double>(x.flat_parameter)});
-  for(const CE::Multiprecision_number& w : wide.weights)
-    result.weights.push_back(static_cast<double>(w));
-  result.first_corner = wide.first_corner;
-  result.input_face = wide.input_face;
-  result.flat_face = wide.flat_face;
-  result.corner_vertex = wide.corner_vertex;
-  for(const std::array<CE::Multiprecision_number, 2>& z : wide.corner_uv)
-    result.corner_uv.push_back(rounded(z[0], z[1]));
-  result.corner_halfedge = wide.corner_halfedge;
-  result.angle_sums = wide.angle_sums;
-  result.status = wide.status;
-  result.amount = wide.amount;
-  return result;
-}
+CE::Common_refinement<double> rounded(const Wide_refinement& wide);
 
-inline void use_wide_points(Mesh& mesh, Wide_layout& wide)
-{
-  wide.is_used = true;
-  wide.uv = mesh.add_property_map<Halfedge, Wide_point>("h:wide_uv").first;
-}
+void use_wide_points(Mesh& mesh, Wide_layout& wide);
 
 // What is drawn of a layout.
-inline void round_layout(const Mesh& mesh, const Wide_layout& wide, UV_map uv, CE::Common_refinement<double>& refinement)
-{
-  for(Halfedge h : mesh.halfedges())
-  {
-    const std::array<double, 2> p = rounded(wide.uv[h].x(), wide.uv[h].y());
-    uv[h] = Kernel::Point_2(p[0], p[1]);
-  }
-  refinement = rounded(wide.refinement);
-}
+void round_layout(const Mesh& mesh, const Wide_layout& wide, UV_map uv, CE::Common_refinement<double>& refinement);
 
-// As `CE::flatten()` with the same parameters.
-template <typename NamedParameters>
-CE::Flattening_report<Mesh> flatten_precisely(Mesh& mesh, UV_map uv, CE::Common_refinement<double>& refinement, Wide_layout& wide,
-                                              const NamedParameters& np)
-{
-  use_wide_points(mesh, wide);
-  const auto report = CE::flatten<CE::Multiprecision_number>(mesh, wide.uv, np.common_refinement(std::ref(wide.refinement)));
-  if(report)
-    round_layout(mesh, wide, uv, refinement);
-  return report;
-}
+// ---- Points of the sphere, and of the disk in the plane z = 0
 
-// The points of a mesh made of `parts`, before rounding.
-inline void set_wide_points(const Wide_refinement& parts, const CE::Refined_mesh_elements<Mesh>& elements, Mesh& mesh, Wide_layout& wide)
-{
-  use_wide_points(mesh, wide);
-  for(std::size_t c = 0; c < elements.halfedges.size(); ++c)
-    wide.uv[elements.halfedges[c]] = Wide_point(parts.corner_uv[c][0], parts.corner_uv[c][1]);
-}
+typedef std::array<double, 3>                     Space_point;
+typedef std::array<CE::Multiprecision_number, 3>  Wide_space_point;
+
+Space_point rounded(const Wide_space_point& p);
+std::vector<Space_point> rounded(const std::vector<Wide_space_point>& points);
+
+template <typename NT>
+std::array<NT, 3> origin() { return {{ NT(0), NT(0), NT(0) }}; }
 
 } // namespace flattening
 

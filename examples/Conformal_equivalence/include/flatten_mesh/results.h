@@ -9,9 +9,7 @@
 
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
-#include <CGAL/Conformal_equivalence/multiprecision.h>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -31,8 +29,8 @@ struct Result
   std::optional<UV_map> lattice_uv; // with --lattice-coordinates: what is written instead of `uv`
 
   // With --target sphere or disk: the images of the vertices, in the plane z = 0 for the disk; the origin for isolated ones
-  std::vector<std::array<double, 3> > image;
-  std::vector<std::array<CE::Multiprecision_number, 3> > wide_image; // with --precision
+  std::vector<Space_point> image;
+  std::vector<Wide_space_point> wide_image; // with --precision
 
   explicit Result(Mesh& mesh)
     : mesh(mesh),

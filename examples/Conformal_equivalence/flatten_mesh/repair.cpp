@@ -3,27 +3,23 @@
 
 // With --local-repair a copy of the mesh is flattened, with edges flipped or split where triangles break.
 
-#ifndef FLATTEN_MESH_REPAIR_H
-#define FLATTEN_MESH_REPAIR_H
-
-#include "mesh.h"
-#include "results.h"
+#include "../include/flatten_mesh/doors.h"
+#include "../include/flatten_mesh/door_parameters.h"
 
 #include <CGAL/Conformal_equivalence/flatten_repaired.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
-#include <algorithm>
-
 namespace flattening {
 
-// As `CE::flatten()` with the same parameters; the mesh of `repaired` is made.
-template <typename NamedParameters>
-Report flatten_repaired(Result& given, Result& repaired, Repair_figures& figures, const NamedParameters& np)
+Report flatten_repaired(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
 {
-  const auto report = CE::flatten_repaired(given.mesh, repaired.mesh, repaired.uv, np,
+  Progress_visitor visitor(progress);
+  Result &given = results.given, &repaired = results.made;
+  const auto report = CE::flatten_repaired(given.mesh, repaired.mesh, repaired.uv,
+                                           flattening_parameters(options, conditions, results, visitor),
                                            CGAL::parameters::log_scale_factor_map(repaired.u).projective_weight_map(repaired.weight));
   for(const auto& change : report.changes)
-    ++(change.kind == change.FLIP ? figures.number_of_flips : figures.number_of_splits);
+    ++(change.kind == change.FLIP ? results.repair.number_of_flips : results.repair.number_of_splits);
   if(report)
     for(Vertex v : given.mesh.vertices())
       given.u[v] = repaired.u[v]; // the vertices given come first
@@ -34,5 +30,3 @@ Report flatten_repaired(Result& given, Result& repaired, Repair_figures& figures
 }
 
 } // namespace flattening
-
-#endif // FLATTEN_MESH_REPAIR_H

@@ -1,0 +1,287 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The mesh, and what is prescribed on it.
+
+#include "../include/flatten_mesh/conditions.h"
+#include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/read_soup.h"
+#include "../include/flatten_mesh/Scanner.h"
+#include "../include/flatten_mesh/Triangle_soup.h"
+
+#include <CGAL/Conformal_equivalence/boundary_conditions.h>
+#include <CGAL/Conformal_equivalence/Flattening_report.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace flattening {
+
+namespace {
+
+// The vertex that a line of a file begins with.
+Vertex read_vertex(Scanner& in, const Mesh& mesh)
+{
+  const std::int64_t i = in.integer_in_line();
+  if(i < 0 || static_cast<std::size_t>(i) >= mesh.number_of_vertices())
+    in.error("there is no vertex ", i, "; the mesh has ", mesh.number_of_vertices(), " vertices");
+  return Vertex(static_cast<Mesh::size_type>(i));
+}
+
+void require_inside(const Scanner& in, const Mesh& mesh, Vertex v)
+{
+  if(mesh.is_isolated(v))
+    in.error("vertex ", v.idx(), " has no face, it cannot be a cone");
+  if(mesh.is_border(v))
+    in.error("vertex ", v.idx(), " is on the border; a cone lies inside the surface");
+}
+
+// A number of degrees; of a multiple of 360 / `quanta_of_turn`, if that is not zero, its rounding is undone.
+double multiple_of_quantum(const Scanner& in, Vertex v, double degrees, unsigned int quanta_of_turn)
+{
+  if(quanta_of_turn == 0)
+    return degrees;
+  const double multiple = std::round(degrees * quanta_of_turn / 360), nearest = multiple * 360 / quanta_of_turn;
+  if(! (multiple > 0) || std::abs(degrees - nearest) > 1e-6)
+    in.error("vertex ", v.idx(), ": the angle ", degrees, " is no multiple of ", 360. / quanta_of_turn, " degrees (--quantize)");
+  return nearest;
+}
+
+// In radians, from a word in degrees.
+double cone_angle(const Scanner& in, Vertex v, std::string_view word, unsigned int quanta_of_turn)
+{
+  double degrees = 0;
+  if(! Scanner::parse(word, degrees))
+    in.error("vertex ", v.idx(), ": expected an angle in degrees or 'free', found '", Scanner::printable(word), "'");
+  if(! std::isfinite(degrees))
+    in.error("vertex ", v.idx(), ": the angle ", degrees, " is not a finite number");
+  if(! (degrees / 180 * CGAL_PI > 0))
+    in.error("vertex ", v.idx(), ": the angle ", degrees, " is not positive");
+  return multiple_of_quantum(in, v, degrees, quanta_of_turn) / 180 * CGAL_PI;
+}
+
+// Calls `fix(vertex)` for each cone of free angle, and `prescribe(vertex, angle)` for each of the others, in the
+// lines "vertex-index [angle in degrees | free]" of the file; # begins a comment. Each vertex is
+// inside the surface and is listed once. No angle is free if all are to be multiples of 360 / `quanta_of_turn`.
+template <typename Fix, typename Prescribe>
+void read_cone_file(const std::string& file, const Mesh& mesh, unsigned int quanta_of_turn, Fix fix, Prescribe prescribe)
+{
+  const std::string content = read_file(file);
+  Scanner in(content, file, '#');
+  std::unordered_map<std::size_t, std::size_t> line_of;
+  for(; ! in.at_end(); in.skip_line())
+  {
+    const Vertex v = read_vertex(in, mesh);
+    require_inside(in, mesh, v);
+    const auto listed = line_of.emplace(v.idx(), in.line());
+    if(! listed.second)
+      in.error("vertex ", v.idx(), " is listed twice, first in line ", listed.first->second);
+    const std::string_view word = in.word_in_line();
+    if(! word.empty() && word != "free")
+      prescribe(v, cone_angle(in, v, word, quanta_of_turn));
+    else if(quanta_of_turn == 0)
+      fix(v);
+    else
+      in.error("vertex ", v.idx(), ": a free cone has any angle, not a multiple of ", 360. / quanta_of_turn, " degrees (--quantize)");
+    if(! in.at_end_of_line())
+      in.error("vertex ", v.idx(), ": expected nothing after '", Scanner::printable(word), "', found '",
+               Scanner::printable(in.word()), "'");
+  }
+}
+
+// Calls `use(vertex, value)` for each line "vertex-index value" of the file; # begins
+// a comment. Each vertex is on the border and is named once, in `is_named`.
+template <typename Use>
+void read_condition_file(const std::string& file, const Mesh& mesh, std::vector<bool>& is_named, Use use)
+{
+  const std::string content = read_file(file);
+  Scanner in(content, file, '#');
+  for(; ! in.at_end(); in.skip_line())
+  {
+    const Vertex v = read_vertex(in, mesh);
+    const double value = in.number_in_line();
+    if(! in.at_end_of_line())
+      in.error("expected only a vertex and a number");
+    if(! is_on_border(mesh, v))
+      in.error("vertex ", v.idx(), " is not on the border");
+    if(is_named[v])
+      in.error("vertex ", v.idx(), " has a condition already");
+    if(! std::isfinite(value))
+      in.error("vertex ", v.idx(), ": ", value, " is not a finite number");
+    is_named[v] = true;
+    use(in, v, value);
+  }
+}
+
+void read_border_conditions(const Options& options, const Mesh& mesh, Conditions& conditions)
+{
+  std::vector<bool> is_named(mesh.number_of_vertices(), false);
+  if(! options.angle_file.empty())
+    read_condition_file(options.angle_file, mesh, is_named, [&](const Scanner& in, Vertex v, double degrees)
+    {
+      if(! (degrees > 0))
+        in.error("the angle at vertex ", v.idx(), " must be positive");
+      conditions.border_angle[v] = degrees / 180 * CGAL_PI;
+      conditions.is_constrained[v] = false;
+    });
+  if(! options.scale_file.empty())
+    read_condition_file(options.scale_file, mesh, is_named, [&](const Scanner&, Vertex v, double u)
+    {
+      conditions.u[v] = u;
+    });
+}
+
+std::array<Vertex, 4> given_corners(const std::array<std::size_t, 4>& indices, const Mesh& mesh)
+{
+  std::array<Vertex, 4> corners;
+  for(std::size_t k = 0; k < 4; ++k)
+  {
+    if(indices[k] >= mesh.number_of_vertices())
+      fail("--boundary rectangle: there is no vertex ", indices[k], "; the mesh has ", mesh.number_of_vertices(), " vertices");
+    corners[k] = Vertex(static_cast<Mesh::size_type>(indices[k]));
+    if(! is_on_border(mesh, corners[k]))
+      fail("--boundary rectangle: vertex ", indices[k], " is not on the border");
+  }
+  return corners;
+}
+
+// All corners are on the border of the first.
+void require_one_border(const std::array<Vertex, 4>& corners, const Mesh& mesh, const std::vector<Halfedge>& border)
+{
+  for(Vertex v : corners)
+    if(std::none_of(border.begin(), border.end(), [&](Halfedge h) { return mesh.target(h) == v; }))
+      fail("--boundary rectangle: vertex ", v.idx(), " is not on the same border as vertex ", corners[0].idx());
+}
+
+// Corners are chosen for disks only.
+std::array<Vertex, 4> chosen_corners(const std::string& file, const Mesh& mesh)
+{
+  const Halfedge bhd = first_border_halfedge(mesh);
+  if(bhd == Mesh::null_halfedge())
+    fail(file, ": a rectangle needs a border, the mesh is closed");
+  CE::Flattening_report<Mesh> report;
+  const std::array<Vertex, 4> corners =
+    CE::select_rectangle_corners(mesh, bhd, CGAL::parameters::flattening_report(std::ref(report)));
+  if(report.status == CE::Status::MISSING_CONDITION)
+    fail(file, ": a rectangle needs at least 4 border vertices, there are ", border_cycle(mesh, bhd).size());
+  if(! report)
+    fail(file, ": no corners for a rectangle are found: ", CE::message(report),
+         report.status == CE::Status::WRONG_TOPOLOGY ? " (give them: --boundary rectangle=i,j,k,l)" : "");
+  return corners;
+}
+
+// On the border of the corners; the others stay natural.
+void prescribe_a_rectangle(const Options& options, const Mesh& mesh, Conditions& conditions)
+{
+  const std::array<Vertex, 4> corners = options.corners ? given_corners(*options.corners, mesh)
+                                                        : chosen_corners(options.input, mesh);
+  const std::vector<Halfedge> border = border_cycle(mesh, border_halfedge_to(mesh, corners[0]));
+  require_one_border(corners, mesh, border);
+  CE::prescribe_rectangle(mesh, corners, conditions.border_angle);
+  for(Halfedge h : border)
+    conditions.is_constrained[mesh.target(h)] = false;
+}
+
+void set_cones(const Options& options, const Mesh& mesh, Conditions& conditions)
+{
+  read_cone_file(options.cone_file, mesh, options.quanta_of_turn,
+                 [&](Vertex v) { conditions.is_constrained[v] = true; },
+                 [&](Vertex v, double angle) { conditions.cone_angle[v] = angle; });
+}
+
+} // namespace
+
+void build_mesh(const Triangle_soup& soup, const std::string& file, Mesh& mesh)
+{
+  mesh.reserve(static_cast<Mesh::size_type>(soup.points.size()),
+               static_cast<Mesh::size_type>(soup.number_of_edges),
+               static_cast<Mesh::size_type>(soup.triangles.size()));
+  for(const auto& p : soup.points)
+    mesh.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
+  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+  {
+    const auto& t = soup.triangles[f];
+    if(mesh.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])) == Mesh::null_face())
+      fail(file, ": not a manifold at face ", f);
+  }
+}
+
+void read_mesh(const std::string& file, Mesh& mesh)
+{
+  Triangle_soup soup = read_soup(file);
+  check_soup(soup, file);
+  build_mesh(soup, file, mesh);
+}
+
+bool is_on_border(const Mesh& mesh, Vertex v)
+{
+  return ! mesh.is_isolated(v) && mesh.is_border(v);
+}
+
+std::vector<Halfedge> border_cycle(const Mesh& mesh, Halfedge h)
+{
+  std::vector<Halfedge> cycle;
+  const Halfedge first = h;
+  do
+  {
+    cycle.push_back(h);
+    h = mesh.next(h);
+  }
+  while(h != first);
+  return cycle;
+}
+
+Halfedge first_border_halfedge(const Mesh& mesh)
+{
+  for(Halfedge h : mesh.halfedges())
+    if(mesh.is_border(h))
+      return h;
+  return Mesh::null_halfedge();
+}
+
+Halfedge border_halfedge_to(const Mesh& mesh, Vertex v)
+{
+  for(Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
+    if(mesh.is_border(h))
+      return h;
+  return Mesh::null_halfedge();
+}
+
+std::array<Vertex, 3> vertices_of_face(const Mesh& mesh, Face f)
+{
+  const Halfedge h = mesh.halfedge(f);
+  return {{ mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)) }};
+}
+
+Conditions::Conditions(Mesh& mesh)
+  : border_angle(mesh.add_property_map<Vertex, double>("v:border_angle", CGAL_PI).first),
+    cone_angle(mesh.add_property_map<Vertex, double>("v:cone_angle", 2 * CGAL_PI).first),
+    u(mesh.add_property_map<Vertex, double>("v:prescribed_u", 0.).first),
+    is_constrained(mesh.add_property_map<Vertex, bool>("v:is_constrained", false).first)
+{
+  for(Halfedge h : mesh.halfedges())
+    if(mesh.is_border(h))
+      is_constrained[mesh.target(h)] = true;
+}
+
+void set_conditions(const Options& options, const Mesh& mesh, Conditions& conditions)
+{
+  if(! options.cone_file.empty())
+    set_cones(options, mesh, conditions);
+  if(options.is_rectangle)
+    prescribe_a_rectangle(options, mesh, conditions);
+  else
+    read_border_conditions(options, mesh, conditions);
+}
+
+} // namespace flattening

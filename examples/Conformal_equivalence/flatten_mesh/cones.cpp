@@ -1,0 +1,26 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "../include/flatten_mesh/doors.h"
+#include "../include/flatten_mesh/door_parameters.h"
+
+#include <CGAL/Conformal_equivalence/place_cones.h>
+#include <CGAL/number_utils.h>
+
+namespace flattening {
+
+Report place_cones(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
+{
+  Progress_visitor visitor(progress);
+  const Report report = CE::place_cones(results.given.mesh, conditions.cone_angle,
+                                        placement_parameters(options, plane_parameters(options, results, visitor)));
+  if(report && options.quanta_of_turn == 0)
+    for(const auto& cone : report.cones)
+    {
+      conditions.cone_angle[cone.vertex] = 2 * CGAL_PI;
+      conditions.is_constrained[cone.vertex] = true;
+    }
+  return report;
+}
+
+} // namespace flattening

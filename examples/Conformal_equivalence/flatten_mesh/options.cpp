@@ -1,0 +1,479 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "../include/flatten_mesh/options.h"
+#include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/Scanner.h"
+
+#include <boost/program_options.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace flattening {
+
+namespace {
+
+namespace po = boost::program_options;
+
+po::options_description visible_options()
+{
+  po::options_description options("Options", 110);
+  options.add_options()
+    ("output,o", po::value<std::string>(), "write the mesh with the layout as texture coordinates to this OBJ file, "
+                                           "and a material (.mtl, .checker.png) beside it")
+    ("svg", po::value<std::string>(), "draw the layout")
+    ("html", po::value<std::string>(), "write a page that shows the textured mesh and the layout")
+    ("report", po::value<std::string>(), "write the figures as JSON")
+    ("boundary", po::value<std::vector<std::string> >()->composing(),
+       "natural: the border keeps its lengths (default)\n"
+       "rectangle[=i,j,k,l]: with corners at these vertices of one border, other borders stay natural; "
+       "or, on a topological disk, with chosen corners\n"
+       "angles=FILE: angle sums in degrees, lines 'vertex-index angle'\n"
+       "scale=FILE: u, lines 'vertex-index u'\n"
+       "angles and scale may both be given; border vertices not named have u = 0\n"
+       "disk: the same as --target disk")
+    ("target", po::value<std::string>()->default_value("plane"), "plane\n"
+       "sphere: the unit sphere, for closed surfaces without handles; the vertices of the OBJ file are points of the sphere\n"
+       "disk: the unit disk, for topological disks; all border vertices are on the circle")
+    ("moebius-weights", po::value<std::string>()->default_value("vertices"), "vertices | areas: what has its barycentre in the centre "
+       "of the sphere, or of the sphere of which the disk is one half")
+    ("disk-centre", po::value<std::string>(), "I: this vertex, inside the surface, becomes the centre of the disk instead")
+    ("disk-points", po::value<std::string>(), "I,J,K: instead, these border vertices, counterclockwise, become 1, e^(2 pi i / 3) and e^(4 pi i / 3)")
+    ("vertex-at-infinity", po::value<std::string>(), "I: on the way to the sphere this vertex, to the disk this border vertex, is sent to "
+       "infinity; chosen by default")
+    ("frame", po::value<std::string>()->default_value("canonical"), "canonical | unit-square")
+    ("cones", po::value<std::string>(),
+       "FILE: cones inside the surface, lines 'vertex-index [angle in degrees | free]'; at a free cone, or where nothing "
+       "follows the vertex, u = 0 and the angle is found. Closed surfaces need cones, except for tori\n"
+       "auto[=N]: N cones place themselves, or as many as it takes for --max-scale or --max-area (a file of such a name is given as ./auto)")
+    ("max-scale", po::value<std::string>(), "U: with --cones auto, cones are placed until |u| is at most U everywhere")
+    ("max-area", po::value<std::string>(), "A: with --cones auto, cones are placed until no triangle is scaled by more than the factor A, "
+       "relative to the mean of the areas")
+    ("quantize", po::value<std::string>(), "[DEGREES]: the angles of cones are multiples of this one, 360 / n (90 if none "
+       "is given): those of --cones auto are rounded, those of a file have to be")
+    ("seamless", po::bool_switch(), "the layout is scaled, turned and deformed as little as it takes, so that a texture of tiles fits across the "
+       "seams; the tiles are squares with --quantize 90 (default) or 180, hexagons with 60 or 120")
+    ("tiles", po::value<std::string>(), "T: with --seamless, about so many tiles; by default as few as --distortion allows")
+    ("distortion", po::value<std::string>()->default_value("1.02"), "D: with --seamless, bound on the mean quasi-conformal factor of the deformation")
+    ("lattice-coordinates", po::bool_switch(), "with --seamless, the texture coordinates are (a, b) for the point "
+       "a + b e^(2 pi i / m), where m is 4 for squares and 6 for hexagons: then the motions across the seams are exact for hexagons, too")
+    ("retriangulate", po::value<std::string>()->default_value("when-needed"), "never: edges are kept\n"
+       "when-needed: edges are flipped where there is no solution otherwise (default)\n"
+       "always: the result depends on the surface alone, not on its triangulation")
+    ("keep-border", po::bool_switch(), "no border edge is flipped, so that all are as long as u at their ends makes them; fails where that cannot be")
+    ("refine", po::bool_switch(), "if edges were flipped, write the mesh of the parts into which they cut the triangles, on which the "
+       "map is projective; otherwise this is done with --projective, and where the triangles are flipped if their edges are drawn straight")
+    ("local-repair", po::bool_switch(), "no flips on the way; instead, where triangles break, edges of a copy of the mesh are flipped or split, "
+       "and the copy is written")
+    ("mollify", po::value<std::string>()->default_value("0"), "add the least constant to all lengths with which every triangle inequality "
+       "holds with this slack, relative to the mean length; 0: none")
+    ("projective", po::bool_switch(), "write homogeneous texture coordinates u*w, v*w, w")
+    ("require-injective", po::bool_switch(), "fail if the layout overlaps itself, or if rounding has cost triangles of the sphere or the disk")
+    ("color-by", po::value<std::string>()->default_value("u"), "u | qc: colours of the drawing")
+    ("tolerance", po::value<std::string>()->default_value("1e-12"), "largest error of an angle sum, in radians")
+    ("max-iterations", po::value<long long>()->default_value(100), "bound on the number of Newton steps")
+    ("precision", po::value<std::string>()->default_value("double"), "double | BITS: computes with numbers of so many bits (up to 4096), "
+       "as exactly as they allow, and writes all of their digits")
+    ("solver", po::value<std::string>(), "the linear solver: cholmod or simplicial, as far as compiled in")
+    ("quiet", po::bool_switch(), "no summary and no progress")
+    ("help,h", po::bool_switch(), "show this text")
+    ("version", po::bool_switch(), "show the version");
+  return options;
+}
+
+void refuse_unknown_values(const po::variables_map& values)
+{
+  const auto check = [&](const char* name, const std::vector<std::string>& known)
+  {
+    const std::string value = values[name].as<std::string>();
+    if(std::find(known.begin(), known.end(), value) == known.end())
+      throw Usage_error(text("unknown value '", value, "' of --", name));
+  };
+  check("target", {"plane", "sphere", "disk"});
+  check("moebius-weights", {"vertices", "areas"});
+  check("frame", {"canonical", "unit-square"});
+  check("retriangulate", {"never", "when-needed", "always"});
+  check("color-by", {"u", "qc"});
+}
+
+// Whether an option is on the command line, with a value or as a switch.
+bool is_given(const po::variables_map& values, const std::string& name)
+{
+  return values.count(name) != 0 && ! values[name].defaulted();
+}
+
+// `what` does not go with any of these options.
+void exclude(const po::variables_map& values, const std::string& what, const std::vector<std::string>& names)
+{
+  for(const std::string& name : names)
+    if(is_given(values, name))
+      throw Usage_error(text(what, " and --", name, " exclude each other"));
+}
+
+// These options say something only together with `what`.
+void require(bool is_there, const po::variables_map& values, const std::string& what, const std::vector<std::string>& names)
+{
+  for(const std::string& name : names)
+    if(! is_there && is_given(values, name))
+      throw Usage_error(text("--", name, " needs ", what));
+}
+
+// Different vertices, separated by commas; `what` takes them, and says how many.
+template <std::size_t N>
+std::array<std::size_t, N> parse_vertices(const std::string& list, const char* what)
+{
+  std::array<std::size_t, N> vertices;
+  std::vector<std::string> words(1);
+  for(char c : list)
+    if(c == ',')
+      words.emplace_back();
+    else
+      words.back() += c;
+  bool is_good = words.size() == N;
+  for(std::size_t k = 0; is_good && k < N; ++k)
+  {
+    std::int64_t i = 0;
+    is_good = Scanner::parse(words[k], i) && i >= 0;
+    vertices[k] = static_cast<std::size_t>(i);
+    for(std::size_t j = 0; is_good && j < k; ++j)
+      is_good = vertices[j] != vertices[k];
+  }
+  if(! is_good)
+    throw Usage_error(text(what, ", not '", list, "'"));
+  return vertices;
+}
+
+void parse_boundary(const std::vector<std::string>& values, Options& options)
+{
+  bool is_natural = false, is_disk = false;
+  for(const std::string& value : values)
+  {
+    const std::size_t equals = value.find('=');
+    const std::string kind = value.substr(0, equals);
+    const bool has_argument = equals != std::string::npos;
+    const std::string argument = has_argument ? value.substr(equals + 1) : "";
+    std::string* file = kind == "angles" ? &options.angle_file : kind == "scale" ? &options.scale_file : nullptr;
+    if(kind == "disk" && ! has_argument)
+      is_disk = true;
+    else if(kind == "natural" && ! has_argument)
+      is_natural = true;
+    else if(kind == "rectangle")
+    {
+      options.is_rectangle = true;
+      if(has_argument)
+        options.corners = parse_vertices<4>(argument, "--boundary rectangle= takes the indices of four different vertices");
+    }
+    else if(file == nullptr)
+      throw Usage_error(text("unknown value '", value, "' of --boundary"));
+    else if(argument.empty())
+      throw Usage_error(text("--boundary ", kind, " needs a file: ", kind, "=FILE"));
+    else if(! file->empty())
+      throw Usage_error(text("--boundary ", kind, " is given twice"));
+    else
+      *file = argument;
+  }
+  const bool is_from_files = ! options.angle_file.empty() || ! options.scale_file.empty();
+  if(is_natural + is_disk + options.is_rectangle + is_from_files > 1 || (! is_from_files && values.size() > 1))
+    throw Usage_error("these values of --boundary exclude each other; only angles=FILE and scale=FILE go together");
+  if(is_disk)
+    options.target = Target::DISK;
+}
+
+// What is said of a map to the sphere or the disk, `target`; other options do not go with it.
+void parse_options_of_target(const po::variables_map& values, const std::string& target, Options& options)
+{
+  const auto vertex = [&](const char* name) -> std::optional<std::size_t>
+  {
+    if(! is_given(values, name))
+      return std::nullopt;
+    return parse_vertices<1>(values[name].as<std::string>(), text("--", name, " takes the index of a vertex").c_str())[0];
+  };
+  options.vertex_at_infinity = vertex("vertex-at-infinity");
+  options.disk_centre = vertex("disk-centre");
+  if(is_given(values, "disk-points"))
+    options.disk_points = parse_vertices<3>(values["disk-points"].as<std::string>(), "--disk-points takes the indices of three different vertices");
+  options.weighs_areas = values["moebius-weights"].as<std::string>() == "areas";
+
+  require(options.target != Target::PLANE, values, "--target sphere or --target disk", {"vertex-at-infinity", "moebius-weights"});
+  require(options.target == Target::DISK, values, "--target disk", {"disk-centre", "disk-points"});
+  if(options.target == Target::PLANE)
+    return;
+  exclude(values, target, {"cones", "seamless", "frame", "keep-border", "local-repair"});
+  if(options.target == Target::SPHERE)
+    exclude(values, target, {"projective", "html"});
+  if(is_given(values, "disk-centre"))
+    exclude(values, "--disk-centre", {"disk-points", "moebius-weights"});
+  if(is_given(values, "disk-points"))
+    exclude(values, "--disk-points", {"moebius-weights"});
+}
+
+// Where the surface is mapped to: by --target, or by --boundary disk, which was read.
+void parse_target(const po::variables_map& values, Options& options)
+{
+  const std::string name = values["target"].as<std::string>(), option = "--target " + name;
+  const bool is_given = ! values["target"].defaulted(), is_boundary_disk = options.target == Target::DISK;
+  if(values.count("boundary") && ((is_boundary_disk && is_given && name != "disk") || (! is_boundary_disk && name != "plane")))
+    throw Usage_error(text(option, " and --boundary ", values["boundary"].as<std::vector<std::string> >()[0], " exclude each other"));
+  if(! is_boundary_disk)
+    options.target = name == "sphere" ? Target::SPHERE : name == "disk" ? Target::DISK : Target::PLANE;
+  parse_options_of_target(values, is_boundary_disk && ! is_given ? "--boundary disk" : option, options);
+}
+
+// A finite number above `bound`.
+double parse_number_above(double bound, const po::variables_map& values, const char* name)
+{
+  const std::string word = values[name].as<std::string>();
+  double x = 0;
+  if(! Scanner::parse(word, x) || ! std::isfinite(x) || ! (x > bound))
+    throw Usage_error(text("--", name, " takes a number above ", bound, ", not '", word, "'"));
+  return x;
+}
+
+// A positive integer.
+std::size_t parse_count(const std::string& word, const std::string& option)
+{
+  std::int64_t n = 0;
+  if(! Scanner::parse(word, n) || n < 1)
+    throw Usage_error(text(option, " takes a positive integer, not '", word, "'"));
+  return static_cast<std::size_t>(n);
+}
+
+// How often an angle goes into a full turn.
+unsigned int parse_quantum(const std::string& word)
+{
+  const double most = 2520;
+  double degrees = 0;
+  if(! Scanner::parse(word, degrees) || ! (degrees >= 360 / most) || ! (degrees <= 360)
+     || std::abs(360 / degrees - std::round(360 / degrees)) > 1e-6)
+    throw Usage_error(text("--quantize takes 360 degrees divided by an integer up to ", most, ", not '", word, "'"));
+  return static_cast<unsigned int>(std::round(360 / degrees));
+}
+
+void parse_placement(const po::variables_map& values, Options& options)
+{
+  const std::string cones = values["cones"].as<std::string>();
+  options.places_cones = true;
+  if(cones != "auto")
+    options.number_of_cones = parse_count(cones.substr(5), "--cones auto=");
+  if(is_given(values, "max-scale"))
+    options.maximum_log_scale_factor = parse_number_above(0, values, "max-scale");
+  if(is_given(values, "max-area"))
+    options.maximum_area_distortion = parse_number_above(1, values, "max-area");
+  if(cones == "auto" && ! is_given(values, "max-scale") && ! is_given(values, "max-area"))
+    throw Usage_error("--cones auto needs a number (--cones auto=N), or a bound (--max-scale U or --max-area A); a file of this name: ./auto");
+  for(const std::string& boundary : values.count("boundary") ? values["boundary"].as<std::vector<std::string> >() : std::vector<std::string>())
+    if(boundary != "natural")
+      throw Usage_error(text("--cones ", cones, " and --boundary ", boundary, " exclude each other: cones are placed for natural borders"));
+}
+
+void parse_seamless(const po::variables_map& values, Options& options)
+{
+  options.seamless = true;
+  if(options.quanta_of_turn == 0)
+    options.quanta_of_turn = 4;
+  const unsigned int n = options.quanta_of_turn;
+  if(n != 2 && n != 3 && n != 4 && n != 6)
+    throw Usage_error("--seamless takes --quantize 180, 120, 90 or 60: there are no tiles for other angles");
+  if(is_given(values, "tiles"))
+    options.number_of_tiles = parse_count(values["tiles"].as<std::string>(), "--tiles");
+  options.maximum_distortion = parse_number_above(1, values, "distortion");
+  options.lattice_coordinates = values["lattice-coordinates"].as<bool>();
+  exclude(values, "--seamless", {"projective", "refine"}); // what is deformed is not conformal, and has no such weights
+  if(values["frame"].as<std::string>() == "unit-square")
+    throw Usage_error("--seamless and --frame unit-square exclude each other");
+  if(is_given(values, "tiles"))
+    exclude(values, "--tiles", {"distortion"});
+}
+
+// Cones, given in a file or to be placed; and what becomes of them in the layout.
+void parse_cones(const po::variables_map& values, Options& options)
+{
+  const std::string cones = is_given(values, "cones") ? values["cones"].as<std::string>() : "";
+  const bool is_auto = cones == "auto" || cones.compare(0, 5, "auto=") == 0, is_seamless = values["seamless"].as<bool>();
+  if(is_given(values, "cones") && cones.empty())
+    throw Usage_error("--cones needs the name of a file");
+  require(is_auto, values, "--cones auto", {"max-scale", "max-area"});
+  require(is_seamless, values, "--seamless", {"tiles", "distortion", "lattice-coordinates"});
+  require(is_seamless || ! cones.empty(), values, "--cones or --seamless", {"quantize"});
+  if(is_given(values, "quantize"))
+    options.quanta_of_turn = parse_quantum(values["quantize"].as<std::string>());
+  if(is_auto)
+    parse_placement(values, options);
+  else
+    options.cone_file = cones;
+  if(is_seamless)
+    parse_seamless(values, options);
+  if(! is_auto && ! is_seamless)
+    return;
+  const std::string what = is_seamless ? "--seamless" : "--cones " + cones;
+  exclude(values, what, {"local-repair"});
+  if(values["precision"].as<std::string>() != "double")
+    throw Usage_error(what + " is computed with --precision double only");
+}
+
+void parse_numbers(const po::variables_map& values, Options& options)
+{
+  const std::string tolerance = values["tolerance"].as<std::string>();
+  if(! Scanner::parse(tolerance, options.tolerance) || ! std::isfinite(options.tolerance) || ! (options.tolerance > 0))
+    throw Usage_error(text("--tolerance takes a positive number, not '", tolerance, "'"));
+  const std::string precision = values["precision"].as<std::string>();
+  std::int64_t bits = 53;
+  if(precision != "double" && (! Scanner::parse(precision, bits) || bits < 2 || bits > 4096))
+    throw Usage_error(text("--precision takes 'double' or a number of bits up to 4096, not '", precision, "'"));
+  options.precision_in_bits = static_cast<unsigned int>((std::max)(bits, std::int64_t(53)));
+  const std::string slack = values["mollify"].as<std::string>();
+  if(! Scanner::parse(slack, options.mollification) || ! (options.mollification >= 0) || ! (options.mollification <= 1))
+    throw Usage_error(text("--mollify takes a number from 0 to 1, not '", slack, "'"));
+  const long long iterations = values["max-iterations"].as<long long>();
+  if(iterations < 0 || iterations > 1000000)
+    throw Usage_error("--max-iterations takes a number from 0 to 1000000");
+  options.maximum_number_of_iterations = static_cast<unsigned int>(iterations);
+}
+
+CGAL::Conformal_equivalence::Retriangulation parse_retriangulation(const std::string& value)
+{
+  typedef CGAL::Conformal_equivalence::Retriangulation Retriangulation;
+  return value == "always" ? Retriangulation::ALWAYS : value == "when-needed" ? Retriangulation::WHEN_NEEDED : Retriangulation::NEVER;
+}
+
+// The words of the command line. What follows --quantize belongs to it if it is a number, and only then.
+std::vector<std::string> words_of_command_line(int argc, const char* const argv[])
+{
+  std::vector<std::string> words;
+  for(int i = 1; i < argc; ++i)
+  {
+    words.push_back(argv[i]);
+    double degrees;
+    if(words.back() == "--quantize")
+      words.back() += i + 1 < argc && Scanner::parse(argv[i + 1], degrees) ? std::string("=") + argv[++i] : "=90";
+  }
+  return words;
+}
+
+po::variables_map parse_command_line(int argc, const char* const argv[])
+{
+  po::options_description all;
+  all.add(visible_options()).add_options()("input", po::value<std::string>());
+  po::positional_options_description positions;
+  positions.add("input", 1);
+  po::variables_map values;
+  try
+  {
+    namespace style = po::command_line_style;
+    po::store(po::command_line_parser(words_of_command_line(argc, argv)).options(all).positional(positions)
+                .style(style::default_style & ~style::allow_guessing).run(), values);
+    po::notify(values);
+  }
+  catch(const po::too_many_positional_options_error&)
+  {
+    throw Usage_error("only one INPUT can be given");
+  }
+  catch(const po::error& e)
+  {
+    throw Usage_error(e.what());
+  }
+  return values;
+}
+
+// The file of an output, empty if it is not wanted.
+std::string output_file(const po::variables_map& values, const char* option)
+{
+  if(! values.count(option))
+    return "";
+  const std::string file = values[option].as<std::string>();
+  if(file.empty())
+    throw Usage_error(text("--", option, " needs the name of a file"));
+  return file;
+}
+
+// The linear solvers compiled in, the default first.
+std::vector<std::string> solver_names()
+{
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD
+  return { "cholmod", "simplicial" };
+#else
+  return { "simplicial" };
+#endif
+}
+
+} // namespace
+
+std::string help_text()
+{
+  std::ostringstream out;
+  out << "Usage: flatten_mesh INPUT [-o OUT.obj] [--svg OUT.svg] [--html OUT.html] [--report OUT.json] [options]\n"
+         "Flattens a triangle mesh (OFF, OBJ, PLY or STL) of any topology by an exact discrete conformal map:\n"
+         "the layout has the length cross ratios of the mesh. What is no topological disk, or has cones, is\n"
+         "cut open. Closed surfaces without handles are also mapped to the sphere, disks to the unit disk.\n"
+         "Vertices are counted from 0.\n"
+         "Exit status: 0 done, no triangle flipped (on sphere and disk: but for those that rounding has cost,\n"
+         "which are counted); 1 failed, nothing is written; 2 wrong usage.\n\n"
+      << visible_options();
+  return out.str();
+}
+
+Options parse_options(int argc, const char* const argv[])
+{
+  Options options;
+  const po::variables_map values = parse_command_line(argc, argv);
+  options.is_help = values["help"].as<bool>();
+  options.is_version = values["version"].as<bool>();
+  if(options.is_help || options.is_version)
+    return options;
+  refuse_unknown_values(values);
+  if(! values.count("input"))
+    throw Usage_error("no INPUT is given");
+  options.input = values["input"].as<std::string>();
+  options.obj = output_file(values, "output");
+  options.svg = output_file(values, "svg");
+  options.html = output_file(values, "html");
+  options.report = output_file(values, "report");
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  if(! options.report.empty())
+    throw Usage_error("--report is not available: the program was built without nlohmann-json");
+#endif
+  if(values.count("boundary"))
+    parse_boundary(values["boundary"].as<std::vector<std::string> >(), options);
+  parse_target(values, options);
+  parse_cones(values, options);
+  parse_numbers(values, options);
+  options.unit_square = values["frame"].as<std::string>() == "unit-square";
+  options.color_by_quasi_conformal_factor = values["color-by"].as<std::string>() == "qc";
+  options.retriangulation = parse_retriangulation(values["retriangulate"].as<std::string>());
+  options.keep_border = values["keep-border"].as<bool>();
+  options.refine = values["refine"].as<bool>();
+  options.local_repair = values["local-repair"].as<bool>();
+  if(options.local_repair && ! values["retriangulate"].defaulted())
+    throw Usage_error("--local-repair and --retriangulate exclude each other");
+  if(options.local_repair && values["precision"].as<std::string>() != "double")
+    throw Usage_error("--local-repair is computed with --precision double only");
+  options.projective = values["projective"].as<bool>();
+  options.require_injective = values["require-injective"].as<bool>();
+  options.quiet = values["quiet"].as<bool>();
+  if(values.count("solver"))
+    options.solver = values["solver"].as<std::string>();
+  return options;
+}
+
+void check_solver(const std::string& name)
+{
+  std::string known;
+  for(const std::string& s : solver_names())
+  {
+    if(name.empty() || name == s)
+      return;
+    known += (known.empty() ? "" : ", ") + s;
+  }
+  throw Usage_error(text("unknown solver '", name, "'; this program has: ", known));
+}
+
+} // namespace flattening

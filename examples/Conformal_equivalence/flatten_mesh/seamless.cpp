@@ -1,0 +1,45 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "../include/flatten_mesh/doors.h"
+#include "../include/flatten_mesh/seamless.h"
+#include "../include/flatten_mesh/Stopwatch.h"
+
+#include <CGAL/Conformal_equivalence/Statistics.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flattening {
+
+namespace {
+
+// The layout was found in coordinates (a, b) of the lattice: these are written, Cartesian ones are drawn.
+void keep_lattice_coordinates(unsigned int symmetry, Result& result)
+{
+  UV_map lattice = result.mesh.add_property_map<Halfedge, Kernel::Point_2>("h:lattice_uv").first;
+  for(Halfedge h : result.mesh.halfedges())
+  {
+    const Kernel::Point_2 p = lattice[h] = result.uv[h];
+    if(has_hexagons(static_cast<int>(symmetry)))
+      result.uv[h] = Kernel::Point_2(p.x() + p.y() / 2, p.y() * (std::sqrt(3.) / 2));
+  }
+  result.lattice_uv = lattice;
+}
+
+} // namespace
+
+Report flatten_seamlessly(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
+{
+  const Stopwatch watch;
+  const Report report = options.places_cones ? flatten_seamlessly_with_placed_cones(options, results, progress)
+                                             : flatten_seamlessly_with_given_cones(options, conditions, results, progress);
+  const CE::Statistics::Seconds& s = report.statistics.seconds;
+  if(options.places_cones) // what is counted nowhere else
+    results.placing_seconds = (std::max)(0., watch.seconds() - (s.import + s.solve + s.cut + s.layout + s.verify));
+  if(report && options.lattice_coordinates)
+    keep_lattice_coordinates(options.quanta_of_turn, results.given);
+  return report;
+}
+
+} // namespace flattening

@@ -1,0 +1,21 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "../include/flatten_mesh/doors.h"
+#include "../include/flatten_mesh/door_parameters.h"
+
+#include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
+
+namespace flattening {
+
+Report flatten_seamlessly_with_given_cones(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
+{
+  Progress_visitor visitor(progress);
+  return CE::compute_seamless_parameterization(results.given.mesh, results.given.uv,
+    tiling_parameters(options, plane_parameters(options, results, visitor)).cone_angle_map(conditions.cone_angle)
+                                                                           .border_angle_map(conditions.border_angle)
+                                                                           .vertex_is_constrained_map(conditions.is_constrained)
+                                                                           .prescribed_log_scale_factor_map(conditions.u));
+}
+
+} // namespace flattening

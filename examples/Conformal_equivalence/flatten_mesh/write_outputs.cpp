@@ -1,0 +1,257 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "../include/flatten_mesh/write_outputs.h"
+#include "../include/flatten_mesh/color_scale.h"
+#include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/Stopwatch.h"
+#include "../include/flatten_mesh/write_HTML.h"
+#include "../include/flatten_mesh/write_material.h"
+#include "../include/flatten_mesh/write_SVG.h"
+
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
+#include <CGAL/Conformal_equivalence/conformal_distortion.h>
+#include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace flattening {
+
+namespace {
+
+std::string name_without_folder(const std::string& file)
+{
+  return std::filesystem::path(file).filename().string();
+}
+
+// The mesh with these points; numbers with as many digits as it takes to read them back.
+template <typename Point>
+bool write_sphere_OBJ(std::ostream& out, const Mesh& mesh, const std::vector<Point>& points)
+{
+  {
+    Text_buffer buffer(out);
+    for(Vertex v : mesh.vertices())
+    {
+      buffer << 'v';
+      for(const auto& x : points[v.idx()])
+        CE::internal::write_obj_number(buffer << ' ', x);
+      buffer << '\n';
+    }
+    for(Face f : mesh.faces())
+    {
+      buffer << 'f';
+      for(Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+        buffer << ' ' << v.idx() + 1;
+      buffer << '\n';
+    }
+  }
+  out.flush();
+  return out.good();
+}
+
+const double distance_of_hemispheres = 2.2;
+
+// Both sides of the sphere, side by side: as seen from the z-axis, and from its other end.
+UV_map hemispheres(Result& result)
+{
+  UV_map uv = result.mesh.add_property_map<Halfedge, Kernel::Point_2>("h:hemispheres").first;
+  for(Face f : result.mesh.faces())
+  {
+    const auto v = vertices_of_face(result.mesh, f);
+    const auto plane = [&](Vertex w) { return std::array<double, 2>{{ result.image[w.idx()][0], result.image[w.idx()][1] }}; };
+    const bool is_front = CE::internal::is_left_turn(plane(v[0]), plane(v[1]), plane(v[2]));
+    for(Halfedge h : result.mesh.halfedges_around_face(result.mesh.halfedge(f)))
+    {
+      const std::array<double, 2> p = plane(result.mesh.target(h));
+      uv[h] = Kernel::Point_2(is_front ? p[0] : distance_of_hemispheres - p[0], p[1]);
+    }
+  }
+  return uv;
+}
+
+// For a layout that has nothing to do with that of the surface.
+SVG_options hemisphere_options(SVG_options options)
+{
+  options.checkerboard = options.seams = options.cones = false;
+  options.circles = { {{0, 0, 1}}, {{distance_of_hemispheres, 0, 1}} };
+  return options;
+}
+
+// What gives a triangle its colour in the drawing.
+Face_map<double> face_colors(const Options& options, const Result& result)
+{
+  Mesh& mesh = result.mesh;
+  Face_map<double> value = mesh.add_property_map<Face, double>("f:color", 0.).first;
+  for(Face f : mesh.faces())
+  {
+    const Halfedge h = mesh.halfedge(f);
+    value[f] = options.color_by_quasi_conformal_factor
+      ? CE::quasi_conformal_factor(mesh, result.uv, f)
+      : (result.u[mesh.target(h)] + result.u[mesh.source(h)] + result.u[mesh.target(mesh.next(h))]) / 3;
+  }
+  return value;
+}
+
+HTML_options drawing_options(const Options& options, const Mesh& mesh, const Figures& figures)
+{
+  HTML_options drawing;
+  drawing.title = name_without_folder(options.input);
+  drawing.figures = summary(options, mesh, figures);
+  if(options.seamless)
+  {
+    drawing.svg.tiles = figures.report.tiling.symmetry;
+    drawing.svg.checkerboard = false;
+  }
+  drawing.svg.legend = options.color_by_quasi_conformal_factor ? "quasi-conformal factor" : "u";
+  if(options.target == Target::SPHERE)
+    drawing.svg = hemisphere_options(drawing.svg);
+  else if(options.target == Target::DISK)
+    drawing.svg.circles = { {{0, 0, 1}} };
+  return drawing;
+}
+
+// The checkerboard of the material: about 20 squares along the layout.
+double texture_repetitions(const Result& result)
+{
+  Finite_range x, y;
+  for(Halfedge h : result.mesh.halfedges())
+  {
+    x.insert(result.uv[h].x());
+    y.insert(result.uv[h].y());
+  }
+  const double longest = (std::max)(x.upper - x.lower, y.upper - y.lower);
+  return longest > 0 && std::isfinite(longest) ? 0.5 / round_number_below(longest / 14) : 1;
+}
+
+// What fits across the seams of a layout of square tiles: a checkerboard of squares half as wide, one of them in the centre of each tile. That
+// of pages has a corner at the origin.
+HTML_options page_options(HTML_options drawing, const Figures& figures)
+{
+  if(has_squares(figures.report.tiling.symmetry))
+  {
+    drawing.svg.tiles = 0;
+    drawing.svg.checkerboard = true;
+    drawing.svg.square = .5;
+  }
+  return drawing;
+}
+
+UV_map page_layout(const Figures& figures, const Result& result)
+{
+  if(! has_squares(figures.report.tiling.symmetry))
+    return result.uv;
+  UV_map uv = result.mesh.add_property_map<Halfedge, Kernel::Point_2>("h:page_uv").first;
+  for(Halfedge h : result.mesh.halfedges())
+    uv[h] = Kernel::Point_2(result.uv[h].x() + .25, result.uv[h].y() + .25);
+  return uv;
+}
+
+// The material of a texture of squares, its squares half as wide as a tile and one of them in the centre of each, so that it fits across seams.
+void write_tile_material(std::ostream& out, const std::string& name, const std::string& texture)
+{
+  out << "newmtl " << name << "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd -o 0.25 0.25 -s 1 1 1 " << texture << '\n';
+}
+
+void write_sphere(const Options& options, const Result& result, Output_files& files)
+{
+  files.write(options.obj, [&](std::ostream& out)
+  {
+    return result.wide_image.empty() ? write_sphere_OBJ(out, result.mesh, result.image) : write_sphere_OBJ(out, result.mesh, result.wide_image);
+  });
+}
+
+void write_obj(const Options& options, const Result& result, const Material_files& beside, Output_files& files)
+{
+  if(options.target == Target::SPHERE)
+    return write_sphere(options, result, files);
+  CE::IO::OBJ_material material;
+  material.file = name_without_folder(beside.material);
+  files.write(options.obj, [&](std::ostream& out)
+  {
+    const auto write = [&](const auto& uv)
+    {
+      return options.projective
+        ? CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::projective_weight_map(result.weight), material)
+        : CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::default_values(), material);
+    };
+    return result.wide.is_used ? write(result.wide.uv) : write(result.lattice_uv ? *result.lattice_uv : result.uv);
+  });
+  if(beside.material.empty())
+    return;
+  files.write(beside.material, [&](std::ostream& out)
+  {
+    if(options.seamless && has_squares(static_cast<int>(options.quanta_of_turn)))
+    {
+      write_tile_material(out, material.name, name_without_folder(beside.texture));
+      return out.good();
+    }
+    return write_MTL(out, material.name, name_without_folder(beside.texture), texture_repetitions(result));
+  });
+  files.write(beside.texture, [](std::ostream& out) { return write_checkerboard_PNG(out); });
+}
+
+} // namespace
+
+Material_files::Material_files(const std::string& obj)
+{
+  const std::filesystem::path path(obj);
+  std::error_code ignored;
+  if(path.extension().empty() || (std::filesystem::exists(path, ignored) && ! std::filesystem::is_regular_file(path, ignored)))
+    return; // a device, for example
+  material = std::filesystem::path(path).replace_extension(".mtl").string();
+  texture = std::filesystem::path(path).replace_extension(".checker.png").string();
+}
+
+void announce_outputs(const Options& options, const Material_files& beside, Output_files& files)
+{
+  const std::vector<std::string> outputs = { options.obj, options.obj.empty() ? "" : beside.material,
+                                             options.obj.empty() ? "" : beside.texture, options.svg, options.html, options.report };
+  for(const std::string& file : outputs)
+    for(const std::string& input : {options.input, options.cone_file, options.angle_file, options.scale_file})
+    {
+      std::error_code ignored;
+      if(! file.empty() && ! input.empty() && std::filesystem::equivalent(file, input, ignored))
+        throw Usage_error("the output " + file + " would overwrite the input");
+    }
+  for(const std::string& file : outputs)
+    if(! file.empty())
+      files.announce(file);
+}
+
+void write_outputs(const Options& options, const Mesh& mesh, Result& result, const Material_files& beside,
+                          Figures& figures, Output_files& files)
+{
+  const Stopwatch watch;
+  if(! options.obj.empty())
+    write_obj(options, result, beside, files);
+  if(! options.svg.empty() || ! options.html.empty())
+  {
+    const Face_map<double> colors = face_colors(options, result);
+    const HTML_options drawing = drawing_options(options, mesh, figures);
+    const UV_map layout = options.target == Target::SPHERE ? hemispheres(result) : result.uv;
+    if(! options.svg.empty())
+      files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, drawing.svg); });
+    if(! options.html.empty())
+      files.write(options.html, [&](std::ostream& out)
+      {
+        return write_HTML(out, result.mesh, page_layout(figures, result), colors, page_options(drawing, figures),
+                                  CGAL::parameters::projective_weight_map(result.weight));
+      });
+  }
+  figures.writing_seconds = watch.seconds();
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  if(! options.report.empty())
+    files.write(options.report, [&](std::ostream& out) { return (out << json_report(options, mesh, figures)).good(); });
+#endif
+  files.commit();
+}
+
+} // namespace flattening

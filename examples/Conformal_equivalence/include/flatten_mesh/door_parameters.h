@@ -1,0 +1,73 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef FLATTEN_MESH_DOOR_PARAMETERS_H
+#define FLATTEN_MESH_DOOR_PARAMETERS_H
+
+#include "conditions.h"
+#include "options.h"
+#include "Progress.h"
+#include "results.h"
+#include "Solver_traits.h"
+
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/number_utils.h>
+
+#include <functional>
+
+namespace flattening {
+
+// The parameters of all functions that make maps.
+inline auto common_parameters(const Options& options, const Results& results, Progress_visitor& visitor)
+{
+  return CGAL::parameters::log_scale_factor_map(results.given.u)
+                          .projective_weight_map(results.given.weight)
+                          .mollification(options.mollification)
+                          .gradient_tolerance(options.precision_in_bits > bits_of_double ? 0. : options.tolerance)
+                          .number_of_iterations(options.maximum_number_of_iterations)
+                          .retriangulation(options.retriangulation)
+                          .visitor(std::ref(visitor))
+                          .sparse_linear_solver(Solver_traits(options.solver == "simplicial"));
+}
+
+// Of those to the plane.
+inline auto plane_parameters(const Options& options, const Results& results, Progress_visitor& visitor)
+{
+  return common_parameters(options, results, visitor)
+           .border_edges(options.keep_border ? CE::Border_edges::KEPT : CE::Border_edges::FLIPPABLE);
+}
+
+// With what is prescribed.
+inline auto flattening_parameters(const Options& options, const Conditions& conditions, const Results& results, Progress_visitor& visitor)
+{
+  return plane_parameters(options, results, visitor)
+           .border_angle_map(conditions.border_angle)
+           .cone_angle_map(conditions.cone_angle)
+           .vertex_is_constrained_map(conditions.is_constrained)
+           .prescribed_log_scale_factor_map(conditions.u)
+           .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL);
+}
+
+// The parameters of the search for cones.
+template <typename NamedParameters>
+auto placement_parameters(const Options& options, const NamedParameters& np)
+{
+  return np.number_of_cones(options.number_of_cones)
+           .maximum_log_scale_factor(options.maximum_log_scale_factor)
+           .maximum_area_distortion(options.maximum_area_distortion)
+           .angle_quantum(options.quanta_of_turn == 0 ? 0. : 2 * CGAL_PI / options.quanta_of_turn);
+}
+
+// Those of a seamless layout.
+template <typename NamedParameters>
+auto tiling_parameters(const Options& options, const NamedParameters& np)
+{
+  return placement_parameters(options, np)
+           .number_of_tiles(options.number_of_tiles)
+           .maximum_distortion(options.maximum_distortion)
+           .seamless_coordinates(options.lattice_coordinates ? CE::Seamless_coordinates::LATTICE : CE::Seamless_coordinates::CARTESIAN);
+}
+
+} // namespace flattening
+
+#endif // FLATTEN_MESH_DOOR_PARAMETERS_H

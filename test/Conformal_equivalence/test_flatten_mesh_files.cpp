@@ -1,0 +1,526 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The files that the program flatten_mesh reads and writes, good and bad ones; and the checker of layouts itself.
+
+#define BOOST_TEST_MODULE test_flatten_mesh_files
+#include "include/boost_test.h"
+#include "include/check_flattening.h"
+#include "include/program_runs.h"
+
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/mesh.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/page_text.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/PNG.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/read_soup.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/write_HTML.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/write_SVG.h"
+
+#include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+
+#include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/parameterize.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+using namespace program;
+
+namespace CE = CGAL::Conformal_equivalence;
+namespace SMP = CGAL::Surface_mesh_parameterization;
+using flattening::Mesh;
+
+// ------------------------------------------------------------------------------------------------
+// The checker itself: other maps are refused
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+template <typename Parameterizer>
+std::string write_map_of(Mesh mesh, Parameterizer parameterizer, const std::string& file)
+{
+  auto uv = mesh.add_property_map<flattening::Vertex, flattening::Kernel::Point_2>("v:uv").first;
+  const SMP::Error_code error = SMP::parameterize(mesh, parameterizer, flattening::first_border_halfedge(mesh), uv);
+  BOOST_TEST((error == SMP::OK));
+  auto corner_uv = mesh.add_property_map<flattening::Halfedge, flattening::Kernel::Point_2>("h:uv").first;
+  for(flattening::Halfedge h : mesh.halfedges())
+    corner_uv[h] = uv[mesh.target(h)];
+  BOOST_TEST(CE::IO::write_OBJ(file, mesh, corner_uv));
+  return file;
+}
+
+// moves one vertex of the layout by this part of an edge there
+std::string write_perturbed(const std::string& obj, double amount, const std::string& file)
+{
+  std::ifstream in(obj);
+  std::ofstream out(file);
+  out.precision(17);
+  std::size_t n = 0;
+  for(std::string line; std::getline(in, line); )
+  {
+    double u, v;
+    if(line.substr(0, 3) == "vt " && n++ == 40 && std::sscanf(line.c_str(), "vt %lf %lf", &u, &v) == 2)
+      out << "vt " << u + amount << ' ' << v << '\n';
+    else
+      out << line << '\n';
+  }
+  return file;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(checker_refuses_other_maps)
+{
+  const Folder folder;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(12)));
+  Mesh mesh;
+  flattening::read_mesh(input, mesh);
+  BOOST_TEST(! judge(input, write_map_of(mesh, SMP::LSCM_parameterizer_3<Mesh>(), folder / "lscm.obj")).is_good());
+  BOOST_TEST(! judge(input, write_map_of(mesh, SMP::ARAP_parameterizer_3<Mesh>(), folder / "arap.obj")).is_good());
+
+  BOOST_TEST(run({input, "-o", folder / "out.obj"}).status == 0);
+  BOOST_TEST(judge(input, folder / "out.obj").is_good());
+  BOOST_TEST(judge(input, write_perturbed(folder / "out.obj", 0, folder / "same.obj")).is_good());
+  BOOST_TEST(! judge(input, write_perturbed(folder / "out.obj", 1e-6 / 12, folder / "moved.obj")).is_good());
+}
+
+// ------------------------------------------------------------------------------------------------
+// What is read
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+std::string as_obj(const Soup& soup)
+{
+  std::ostringstream out;
+  out << "# a comment\no grid\n";
+  for(const auto& p : soup.points)
+    out << "v " << point(p) << '\n';
+  out << "vt 0 0\nvn 0 0 1\n";
+  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+  {
+    const auto& t = soup.triangles[f];
+    if(f % 2 == 0)
+      out << "f " << t[0] + 1 << "/1/1 " << t[1] + 1 << "//1 " << t[2] + 1 << "/1\n";
+    else
+      for(std::size_t k = 0; k < 3; ++k)
+        out << (k == 0 ? "f " : " ") << static_cast<long>(t[k]) - static_cast<long>(soup.points.size()) << (k == 2 ? "\n" : "");
+  }
+  return out.str();
+}
+
+std::string as_text_ply(const Soup& soup)
+{
+  std::ostringstream out;
+  out << "ply\nformat ascii 1.0\ncomment a comment\nelement vertex " << soup.points.size()
+      << "\nproperty double x\nproperty double y\nproperty uchar red\nproperty double z\nelement face " << soup.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nproperty int label\nend_header\n";
+  for(const auto& p : soup.points)
+    out << number(p[0]) << ' ' << number(p[1]) << " 255 " << number(p[2]) << '\n';
+  for(const auto& t : soup.triangles)
+    out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << " 7\n";
+  return out.str();
+}
+
+template <typename T>
+void append_bytes(std::string& bytes, T value, bool reverse)
+{
+  char b[sizeof(T)];
+  std::memcpy(b, &value, sizeof(T));
+  if(reverse)
+    std::reverse(b, b + sizeof(T));
+  bytes.append(b, sizeof(T));
+}
+
+std::string as_binary_ply(const Soup& soup, bool big_endian)
+{
+  const bool reverse = big_endian != flattening::is_big_endian();
+  std::ostringstream head;
+  head << "ply\nformat binary_" << (big_endian ? "big" : "little") << "_endian 1.0\nelement vertex " << soup.points.size()
+       << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << soup.triangles.size()
+       << "\nproperty list uchar uint vertex_index\nend_header\n";
+  std::string bytes = head.str();
+  for(const auto& p : soup.points)
+    for(double x : p)
+      append_bytes(bytes, x, reverse);
+  for(const auto& t : soup.triangles)
+  {
+    append_bytes(bytes, std::uint8_t(3), reverse);
+    for(std::uint32_t i : t)
+      append_bytes(bytes, i, reverse);
+  }
+  return bytes;
+}
+
+std::string as_text_stl(const Soup& soup)
+{
+  std::ostringstream out;
+  out << "solid grid of facets\n";
+  for(const auto& t : soup.triangles)
+  {
+    out << "facet normal 0 0 1\nouter loop\n";
+    for(std::uint32_t i : t)
+      out << "vertex " << point(soup.points[i]) << '\n';
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid grid of facets\n";
+  return out.str();
+}
+
+std::string as_binary_stl(const Soup& soup)
+{
+  const bool reverse = flattening::is_big_endian();
+  std::string bytes("solid, but binary");
+  bytes.resize(80, ' ');
+  append_bytes(bytes, static_cast<std::uint32_t>(soup.triangles.size()), reverse);
+  for(const auto& t : soup.triangles)
+  {
+    for(int i = 0; i < 3; ++i)
+      append_bytes(bytes, 0.f, reverse);
+    for(std::uint32_t i : t)
+      for(double x : soup.points[i])
+        append_bytes(bytes, static_cast<float>(x), reverse);
+    append_bytes(bytes, std::uint16_t(0), reverse);
+  }
+  return bytes;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(every_format_gives_the_same)
+{
+  const Folder folder;
+  const Soup soup = bumpy_grid(5);
+  const std::vector<std::string> inputs = {
+    folder.write("a.off", as_off(soup)), folder.write("b.obj", as_obj(soup)), folder.write("c.ply", as_text_ply(soup)),
+    folder.write("d.ply", as_binary_ply(soup, false)), folder.write("e.PLY", as_binary_ply(soup, true)) };
+  std::string first;
+  for(const std::string& input : inputs)
+  {
+    const Run r = run({input, "-o", folder / "o.obj", "--quiet"});
+    BOOST_TEST_CONTEXT(input << ": " << r.err)
+    BOOST_TEST(r.status == 0);
+    const std::string obj = content(folder / "o.obj");
+    if(first.empty())
+      first = obj;
+    BOOST_TEST((obj == first));
+  }
+  for(const std::string& input : {folder.write("f.stl", as_text_stl(soup)), folder.write("g.stl", as_binary_stl(soup))})
+  {
+    const Run r = run({input, "-o", folder / "o.obj"});
+    BOOST_TEST_CONTEXT(input << ": " << r.err)
+    BOOST_TEST(r.status == 0);
+    BOOST_TEST(contains(r.out, "36 vertices, 50 triangles"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bad_files)
+{
+  const Folder folder;
+  const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n", two = "3 0 1 2\n3 0 2 3\n";
+  struct Case { const char* name; std::string content; const char* reason; };
+  const std::vector<Case> cases = {
+    {"a.off", "", "the file is empty"},
+    {"a.xyz", "OFF\n", "unknown extension '.xyz'"},
+    {"a.off", "OOF\n3 1 0\n", "line 1: an OFF file begins with 'OFF'"},
+    {"a.off", "OFF\n", "line 2: expected an integer, found the end of the file"},
+    {"a.off", "OFF\n3 one 0\n", "line 2: expected an integer, found 'one'"},
+    {"a.off", "OFF\n-3 1 0\n", "announces -3 vertices"},
+    {"a.off", "OFF\n3000000 1 0\n0 0 0\n", "cut off"},
+    {"a.off", "OFF\n99999999999999999999 1 0\n0 0 0\n", "line 2: expected an integer"},
+    {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n#0 1 0 .......\n", "cut off: it ends after 2 of 3 vertices"},
+    {"a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n#........", "cut off: it ends after 1 of 2 faces"},
+    {"a.off", off("0 0 0\n1 0\n0 1 0\n", "3 0 1 2\n"), "line 4: expected a number, found the end of the line"},
+    {"a.off", off("0 0 0\n1 x 0\n0 1 0\n", "3 0 1 2\n"), "line 4: expected a number, found 'x'"},
+    {"a.off", off("0 0 0\n1 nan 0\n0 1 0\n", "3 0 1 2\n"), "vertex 1 has the coordinate nan"},
+    {"a.off", off("0 0 0\n1 0 0\n0 1 -inf\n", "3 0 1 2\n"), "vertex 2 has the coordinate -inf"},
+    {"a.off", off("0 0 0\n1 0 0\n0 1e999 0\n", "3 0 1 2\n"), "vertex 2 has the coordinate inf"},
+    {"a.off", off(square, "3 0 1 2\n3 0 2 4\n"), "line 8: face 1 names the vertex 4, but there are 4 vertices"},
+    {"a.off", off(square, "3 0 1 2\n3 0 2 -1\n"), "face 1 names the vertex -1"},
+    {"a.off", off(square, "3 0 1 2\n3 0 2\n"), "line 8: expected an integer"},
+    {"a.off", off(square, "4 0 1 2 3\n"), "line 7: face 0 has 4 vertices; only triangle meshes"},
+    {"a.off", off(square, "3 0 1 2\n2 0 1\n"), "face 1 has 2 vertices"},
+    {"a.off", off(square, "3 0 1 2\n3 0 2 2\n"), "face 1 has the vertex 2 twice"},
+    {"a.off", off(square, ""), "there are no faces"},
+    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 1 0 3\n3 0 1 4\n"), "not a manifold: the edge 0-1 lies in 3 faces"},
+    {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 2 0 1\n"), "the faces 0 and 2 have opposite orientations at the edge 0-1"},
+    {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 1 0 3\n"), "opposite orientations at the edge"},
+    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 0 3 4\n"), "not a manifold: the faces at the vertex 0 form more than one fan"},
+    {"a.off", off("0 0 0\n1 0 0\n1 0 0\n0 1 0\n", two), "edge"},
+    {"a.off", off("0 0 0\n1 0 0\n0 1 0\n0 0 1\n", "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"), "closed surface of genus other than 1 needs cones"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: face 0 names the vertex 4 (counted from 1)"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "line 4"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n", "face 0 names the vertex 0 (counted from 1)"},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n", "line 5: face 0 has 4 vertices"},
+    {"a.obj", "v 0 0\nv 1 0 0\n", "line 1: expected a number, found the end of the line"},
+    {"a.obj", "hello\n", "there are no faces"},
+    {"a.stl", "hello", "neither text nor binary STL"},
+    {"a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n", "'endsolid' is missing"},
+    {"a.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n", "face 0 has 2 vertices"},
+    {"a.stl", "solid\nfacet\nvertex 0 0 0\nvertex nan 0 0\nvertex 0 1 0\nendfacet\nendsolid\n", "vertex 1 has the coordinate nan"},
+    {"a.ply", "play\n", "a PLY file begins with 'ply'"},
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "unknown line '' in the header"},
+    {"a.ply", "ply\nformat ternary 1.0\nend_header\n", "unknown PLY format"},
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nend_header\n", "no property 'z'"},
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty quad x\n", "unknown type 'quad'"} };
+  for(const Case& c : cases)
+  {
+    const std::string input = folder.write(c.name, c.content);
+    BOOST_TEST_CONTEXT(c.content)
+    check_refused({input, "-o", folder / "o.obj", "--svg", folder / "o.svg"}, 1, c.reason);
+    fs::remove(input);
+  }
+  check_refused({folder / "missing.off"}, 1, "cannot be opened");
+  fs::create_directory(folder.path / "folder.off");
+  check_refused({folder / "folder.off"}, 1, "is a directory");
+  BOOST_TEST(folder.files().size() == 1u);
+}
+
+// However a file is cut off or damaged, the program returns.
+BOOST_AUTO_TEST_CASE(damaged_files)
+{
+  const Folder folder;
+  const Soup soup = bumpy_grid(2);
+  const std::vector<std::pair<const char*, std::string> > files = {
+    {"a.off", as_off(soup)}, {"a.obj", as_obj(soup)}, {"a.ply", as_text_ply(soup)}, {"b.ply", as_binary_ply(soup, true)},
+    {"a.stl", as_text_stl(soup)}, {"b.stl", as_binary_stl(soup)} };
+  std::mt19937 random(1);
+  for(const auto& file : files)
+    for(std::size_t n = 0; n < file.second.size(); n += 3)
+    {
+      BOOST_TEST(run({folder.write(file.first, file.second.substr(0, n)), "--quiet"}).status != 2);
+      std::string damaged = file.second;
+      damaged[n] = static_cast<char>(random());
+      BOOST_TEST(run({folder.write(file.first, damaged), "--quiet"}).status != 2);
+    }
+}
+
+// ------------------------------------------------------------------------------------------------
+// What is written: all or nothing
+// ------------------------------------------------------------------------------------------------
+
+BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written)
+{
+  const Folder folder;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
+  check_refused({input, "-o", folder / "none/o.obj"}, 1, "cannot write");
+  check_refused({input, "-o", folder.path.string()}, 1, "it is a directory");
+  check_refused({input, "-o", input}, 2, "would overwrite the input");
+  const std::string cones = folder.write("o.mtl", "12 free\n");
+  check_refused({input, "--cones", cones, "--svg", cones}, 2, "would overwrite the input");
+  check_refused({input, "--cones", cones, "-o", folder / "o.obj"}, 2, "o.mtl would overwrite the input");
+  fs::remove(cones);
+  check_refused({input, "-o", folder / "o.x", "--svg", folder / "o.x"}, 2, "two outputs have the same name");
+  if(fs::exists("/dev/full"))
+    check_refused({input, "-o", folder / "o.obj", "--svg", "/dev/full"}, 1, "cannot write /dev/full");
+  BOOST_TEST((folder.files() == std::set<std::string>{"grid.off"}));
+  BOOST_TEST(content(input) == as_off(bumpy_grid(4)));
+
+  // through a link, to the file itself
+  folder.write("target.svg", "old");
+  fs::create_symlink("target.svg", folder.path / "link.svg");
+  BOOST_TEST(run({input, "--svg", folder / "link.svg"}).status == 0);
+  BOOST_TEST(fs::is_symlink(folder.path / "link.svg"));
+  BOOST_TEST(contains(content(folder / "target.svg"), "</svg>"));
+}
+
+// ------------------------------------------------------------------------------------------------
+// The writers
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+// two triangles on a square, laid out apart
+struct Two_triangles
+{
+  Mesh mesh;
+  flattening::UV_map uv;
+
+  Two_triangles()
+  {
+    flattening::Triangle_soup soup;
+    soup.points = {{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}}, {{0.1, 1e-300, -1e300}}};
+    soup.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
+    flattening::check_soup(soup, "two");
+    flattening::build_mesh(soup, "two", mesh);
+    uv = mesh.add_property_map<flattening::Halfedge, flattening::Kernel::Point_2>("h:uv").first;
+    for(flattening::Halfedge h : mesh.halfedges())
+    {
+      const auto p = mesh.point(mesh.target(h));
+      const double shift = ! mesh.is_border(h) && mesh.face(h).idx() == 1 ? 3 : 0;
+      uv[h] = flattening::Kernel::Point_2(p.x() / 3 + shift, p.y());
+    }
+  }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(write_obj_at_a_seam)
+{
+  Two_triangles two;
+  std::ostringstream out;
+  out.precision(2); // is not looked at
+  BOOST_TEST(CE::IO::write_OBJ(out, two.mesh, two.uv));
+  std::istringstream in(out.str());
+  const checking::Surface s = checking::read_obj(in);
+  BOOST_TEST(s.points.size() == 5u);
+  BOOST_TEST(s.points[4][0] == 0.1);
+  BOOST_TEST(s.points[4][1] == 1e-300);
+  BOOST_TEST(s.points[4][2] == -1e300);
+  BOOST_TEST(s.texture.size() == 6u);
+  BOOST_TEST((s.faces == std::vector<std::array<std::size_t, 3> >{{{0, 1, 2}}, {{0, 2, 3}}}));
+  for(std::size_t f = 0; f < 2; ++f)
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      const auto& p = s.points[s.faces[f][k]];
+      BOOST_TEST(s.texture[s.corners[f][k]][0] == p[0] / 3 + (f == 1 ? 3 : 0));
+      BOOST_TEST(s.texture[s.corners[f][k]][1] == p[1]);
+    }
+
+  std::ofstream closed;
+  BOOST_TEST(! CE::IO::write_OBJ(closed, two.mesh, two.uv));
+  BOOST_TEST(! CE::IO::write_OBJ("/no such folder/o.obj", two.mesh, two.uv));
+}
+
+BOOST_AUTO_TEST_CASE(write_obj_with_other_points_and_weights)
+{
+  Two_triangles two;
+  auto points = two.mesh.add_property_map<flattening::Vertex, flattening::Kernel::Point_3>("v:other").first;
+  auto weights = two.mesh.add_property_map<flattening::Vertex, double>("v:w", 0.25).first;
+  weights[flattening::Vertex(0)] = 1;
+  points[flattening::Vertex(2)] = flattening::Kernel::Point_3(4, 5, 6);
+  std::ostringstream out;
+  CE::IO::OBJ_material material;
+  material.file = "m.mtl";
+  BOOST_TEST(CE::IO::write_OBJ(out, two.mesh, two.uv,
+                               CGAL::parameters::projective_weight_map(weights).vertex_point_map(points), material));
+  BOOST_TEST(contains(out.str(), "v 4 5 6\n"));
+  BOOST_TEST(contains(out.str(), "vt 0 0 1\n"));
+  BOOST_TEST(contains(out.str(), "vt 0.75 0 1\n") == false);
+  BOOST_TEST(contains(out.str(), "mtllib m.mtl\n"));
+  BOOST_TEST(contains(out.str(), "usemtl layout\n"));
+  std::istringstream in(out.str());
+  const checking::Surface s = checking::read_obj(in);
+  BOOST_TEST(s.has_weights);
+  BOOST_TEST(s.texture[s.corners[0][1]][0] == 1. / 3 * 0.25);
+}
+
+BOOST_AUTO_TEST_CASE(draw_layouts)
+{
+  Two_triangles two;
+  auto value = two.mesh.add_property_map<flattening::Face, double>("f:value", 0.).first;
+  value[flattening::Face(1)] = 7.5;
+  const auto svg = [&](const flattening::SVG_options& options)
+  {
+    std::ostringstream out;
+    BOOST_TEST(flattening::write_SVG(out, two.mesh, two.uv, value, options));
+    return out.str();
+  };
+  flattening::SVG_options options;
+  options.legend = "a < b & c";
+  const std::string drawing = svg(options);
+  BOOST_TEST(contains(drawing, "a &lt; b &amp; c"));
+  BOOST_TEST(contains(drawing, ">7.5<"));
+  BOOST_TEST(contains(drawing, ">0<"));
+  BOOST_TEST(contains(drawing, "url(#checkerboard)"));
+  const auto outline = drawing.substr(drawing.find("id=\"outline\""));
+  const std::string path = outline.substr(0, outline.find("/>"));
+  BOOST_TEST(std::count(path.begin(), path.end(), 'M') == 2); // two pieces, each closed
+  BOOST_TEST(std::count(path.begin(), path.end(), 'z') == 2);
+
+  // circles are within the frame: here it is [-3, 5] x [-3.5, 4.5]
+  BOOST_TEST(! contains(drawing, "circle"));
+  options.circles = { {{1, .5, 4}}, {{1, .5, 1}} };
+  BOOST_TEST(contains(svg(options), "<circle cx=\"500\" cy=\"500\" r=\"500\"/>"));
+  BOOST_TEST(contains(svg(options), "<circle cx=\"500\" cy=\"500\" r=\"125\"/>"));
+  options.circles.clear();
+
+  options.checkerboard = false;
+  BOOST_TEST(! contains(svg(options), "pattern"));
+  options.maximum_number_of_drawn_faces = 1;
+  BOOST_TEST(contains(svg(options), "data:image/png;base64,"));
+
+  // numbers of any kind: no crash, no "nan" in the drawing
+  value[flattening::Face(0)] = std::numeric_limits<double>::quiet_NaN();
+  two.uv[two.mesh.halfedge(flattening::Face(0))] = flattening::Kernel::Point_2(HUGE_VAL, 0);
+  for(std::size_t drawn : {0, 10})
+  {
+    options.maximum_number_of_drawn_faces = drawn;
+    BOOST_TEST(! contains(svg(options), "nan"));
+    BOOST_TEST(! contains(svg(options), "inf"));
+  }
+  for(flattening::Halfedge h : two.mesh.halfedges())
+    two.uv[h] = flattening::Kernel::Point_2(1e300, -1e-300); // all in one point
+  BOOST_TEST(! contains(svg(options), "nan"));
+}
+
+BOOST_AUTO_TEST_CASE(write_page)
+{
+  Two_triangles two;
+  auto value = two.mesh.add_property_map<flattening::Face, double>("f:value", 1.).first;
+  auto weights = two.mesh.add_property_map<flattening::Vertex, double>("v:w", 1.).first;
+  flattening::HTML_options options;
+  options.title = "<script>";
+  options.figures = {{"a", "<b>"}};
+  for(bool with_weights : {false, true})
+  {
+    std::ostringstream out;
+    BOOST_TEST((with_weights ? flattening::write_HTML(out, two.mesh, two.uv, value, options, CGAL::parameters::projective_weight_map(weights))
+                             : flattening::write_HTML(out, two.mesh, two.uv, value, options)));
+    const std::string page = out.str();
+    BOOST_TEST(contains(page, "<title>&lt;script&gt;</title>"));
+    BOOST_TEST(contains(page, "<td>a</td><td>&lt;b&gt;</td>"));
+    // six corners of three floats are 72 bytes, 96 digits; six indices of four bytes are 24 bytes, 32 digits
+    const auto digits = [&](const std::string& name)
+    {
+      const std::size_t begin = page.find(name + " = bytes(\"") + name.size() + 10;
+      return page.find('"', begin) - begin;
+    };
+    BOOST_TEST(digits("points") == 96u);
+    BOOST_TEST(digits("texture") == 96u);
+    BOOST_TEST(digits("triangles") == 32u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(encodings)
+{
+  using namespace flattening;
+  const auto base64 = [](const std::string& s)
+  {
+    std::ostringstream out;
+    {
+      Text_buffer buffer(out);
+      write_base64(buffer, reinterpret_cast<const unsigned char*>(s.data()), s.size());
+    }
+    return out.str();
+  };
+  BOOST_TEST(base64("") == ""); // the examples of RFC 4648, section 10
+  BOOST_TEST(base64("f") == "Zg==");
+  BOOST_TEST(base64("fo") == "Zm8=");
+  BOOST_TEST(base64("foo") == "Zm9v");
+  BOOST_TEST(base64("foobar") == "Zm9vYmFy");
+
+  const std::string check = "123456789";
+  BOOST_TEST(crc32(check.data(), check.data() + check.size()) == 0xcbf43926u);
+  BOOST_TEST(adler32("Wikipedia") == 0x11e60398u);
+  BOOST_TEST(round_number_below(0.7) == 0.5);
+  BOOST_TEST(round_number_below(29) == 20.);
+  BOOST_TEST(round_number_below(1) == 1.);
+  BOOST_TEST(round_number_below(0) == 1.);
+}

@@ -1,0 +1,273 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The program flatten_mesh with --seamless.
+
+#define BOOST_TEST_MODULE test_flatten_mesh_seamless
+#include "include/boost_test.h"
+#include "include/check_flattening.h"
+#include "include/check_seams.h"
+#include "include/program_runs.h"
+#include "include/test_meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace program;
+
+namespace {
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+// The motions of the report, by path, are those of the layout; the cones lie where the report says.
+void check_report_of_seams(const checking::Seam_checker& checker, const checking::Surface& s, const nlohmann::json& report)
+{
+  const nlohmann::json& seamless = report["seamless"];
+  BOOST_TEST(seamless["symmetry"] == checker.verdict().symmetry);
+  BOOST_TEST(seamless["seams"].size() == checker.verdict().paths);
+  std::size_t edges = 0;
+  for(const nlohmann::json& path : seamless["seams"])
+  {
+    edges += path["edges"].get<std::size_t>();
+    const auto t = path["translation"].get<std::array<double, 2> >();
+    const std::array<double, 3> motion = {{ path["rotation"].get<double>(), t[0], t[1] }};
+    const auto motions = checker.motions_from(path["from"].get<std::size_t>());
+    BOOST_TEST((std::find(motions.begin(), motions.end(), motion) != motions.end()), path.dump());
+    BOOST_TEST(! checker.motions_from(path["to"].get<std::size_t>()).empty());
+  }
+  BOOST_TEST(edges == checker.verdict().seam_edges);
+  BOOST_TEST(edges == report["seam_edges"].get<std::size_t>());
+
+  BOOST_TEST(report["cones"].size() == checker.verdict().cones);
+  for(const nlohmann::json& cone : report["cones"])
+  {
+    const auto p = cone["lattice"].get<std::array<double, 2> >();
+    bool is_there = false;
+    for(std::size_t f = 0; f < s.faces.size(); ++f)
+      for(std::size_t k = 0; k < 3; ++k)
+        is_there = is_there || (s.faces[f][k] == cone["vertex"].get<std::size_t>()
+                                && s.texture[s.corners[f][k]][0] == p[0] && s.texture[s.corners[f][k]][1] == p[1]);
+    BOOST_TEST(is_there);
+  }
+  // in coordinates of either lattice a tile has area 1
+  BOOST_TEST(std::abs(seamless["tiles"].get<double>() / area(s) - 1) < 1e-9);
+  BOOST_TEST(seamless["distortion"]["mean"].get<double>() >= 1);
+  BOOST_TEST(seamless["distortion"]["max"].get<double>() >= seamless["distortion"]["mean"].get<double>());
+  BOOST_TEST(seamless["quasi_conformal_mean"]["before"].get<double>() >= 1);
+  BOOST_TEST(seamless["closest"].is_boolean());
+  BOOST_TEST(seamless["scale"].get<double>() > 0);
+  BOOST_TEST(report["flipped_triangles"] == 0);
+}
+#endif
+
+// Runs the program, which succeeds; the seams of what it writes are exact.
+struct Seamless
+{
+  checking::Surface layout;
+  checking::Seam_verdict verdict;
+  std::string svg;
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  nlohmann::json report;
+#endif
+
+  Seamless(const Folder& folder, const std::string& input, const std::vector<std::string>& options, int symmetry = 4)
+  {
+    std::vector<std::string> arguments = { input, "-o", folder / "o.obj", "--svg", folder / "o.svg", "--html", folder / "o.html", "--seamless" };
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    arguments.insert(arguments.end(), { "--report", folder / "o.json" });
+#endif
+    const Run r = run(with(arguments, options));
+    BOOST_TEST_REQUIRE(r.status == 0, r.err);
+    BOOST_TEST_MESSAGE(r.out);
+    layout = checking::read_surface(folder / "o.obj");
+    svg = content(folder / "o.svg");
+    const checking::Surface given = checking::read_surface(input);
+    const checking::Seam_checker checker(given, layout, symmetry);
+    verdict = checker.verdict();
+    BOOST_TEST(verdict.is_good(), verdict);
+    BOOST_TEST(contains(svg, "id=\"tiles\""));
+    BOOST_TEST(contains(content(folder / "o.html"), "</html>"));
+    BOOST_TEST(contains(r.out, "tiles                   "));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    report = json(folder / "o.json");
+    check_report_of_seams(checker, layout, report);
+#endif
+  }
+};
+
+} // namespace
+
+// Two cones of pi on a disk: nothing has to be deformed, the layout is still conformally equivalent.
+BOOST_AUTO_TEST_CASE(seamless_disk_with_two_cones)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "hills.off", two_hills(9));
+  const std::vector<std::size_t> vertices = { in_ring(4, 0), in_ring(4, 12) };
+  const std::string cones = folder.write("cones.txt", cone_lines(vertices, "180"));
+  const checking::Cones expected = { {vertices[0], degrees(180)}, {vertices[1], degrees(180)} };
+  for(const std::string quantum : {"--quantize=180", "--quantize=90"})
+  {
+    const int n = quantum == "--quantize=180" ? 2 : 4;
+    const Seamless f(folder, input, {"--cones", cones, quantum, "--tiles", "60"}, n);
+    BOOST_TEST(f.verdict.cones == 2u);
+    BOOST_TEST(judge(input, folder / "o.obj", true, expected).is_good());
+    BOOST_TEST(contains(content(folder / "o.mtl"), "-o 0.25 0.25 -s 1 1 1 o.checker.png"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    BOOST_TEST(f.report["seamless"]["tiles"].get<double>() > 30);
+    BOOST_TEST(f.report["seamless"]["tiles"].get<double>() < 120);
+    BOOST_TEST(f.report["seamless"]["distortion"]["max"].get<double>() < 1 + 1e-6);
+#endif
+  }
+
+  // one bit of one place: every one on the seam counts, no other
+  const checking::Surface given = checking::read_surface(input), layout = checking::read_surface(folder / "o.obj");
+  std::vector<std::set<std::size_t> > places(given.points.size());
+  std::vector<std::size_t> vertex_of(layout.texture.size());
+  for(std::size_t f = 0; f < layout.faces.size(); ++f)
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      places[layout.faces[f][k]].insert(layout.corners[f][k]);
+      vertex_of[layout.corners[f][k]] = layout.faces[f][k];
+    }
+  std::size_t on_seam = 0;
+  for(std::size_t t = 0; t < layout.texture.size(); ++t)
+  {
+    const bool is_on_seam = places[vertex_of[t]].size() > 1 || expected.count(vertex_of[t]) == 1;
+    checking::Surface changed = layout;
+    changed.texture[t][t % 2] = std::nextafter(changed.texture[t][t % 2], HUGE_VAL);
+    const checking::Seam_verdict verdict = checking::check_seams(given, changed, 4);
+    BOOST_TEST((verdict.edges_without_motion > 0) == is_on_seam);
+    BOOST_TEST(verdict.is_good() == ! is_on_seam);
+    on_seam += is_on_seam;
+  }
+  BOOST_TEST(on_seam > 8u);
+  BOOST_TEST(on_seam < layout.texture.size());
+}
+
+BOOST_AUTO_TEST_CASE(seamless_disk_without_cones)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "hills.off", two_hills(5));
+  const Seamless f(folder, input, {"--tiles", "12"});
+  BOOST_TEST(f.verdict.seam_edges == 0u);
+  BOOST_TEST(judge(input, folder / "o.obj").is_good());
+  BOOST_TEST(std::abs(area(f.layout) - 12) < 6);
+}
+
+BOOST_AUTO_TEST_CASE(seamless_spheres)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "sphere.off", bumpy_sphere(3));
+  // a pillow: four cones of pi
+  const std::string pillow = folder.write("pillow.txt", cone_lines({0, 2, 5, 9}, "180"));
+  BOOST_TEST(Seamless(folder, input, {"--cones", pillow, "--quantize", "180", "--tiles", "300"}, 2).verdict.cones == 4u);
+  // eight cones of a cube, which place themselves
+  const Seamless cube(folder, input, {"--cones", "auto=8", "--tiles", "400"});
+  BOOST_TEST(cube.verdict.cones >= 3u);
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  for(const nlohmann::json& cone : cube.report["cones"])
+    BOOST_TEST(std::abs(cone["angle_before_degrees"].get<double>() - cone["angle_degrees"].get<double>()) < 180);
+#endif
+  // the tiles are hexagons: exact in the coordinates of their lattice
+  const std::string sphere = write_off(folder, "icosphere.off", testing::icosphere(3));
+  const std::string octahedron = folder.write("octahedron.txt", cone_lines({0, 1, 2, 3, 5, 9}, "240"));
+  const std::string icosahedron = folder.write("icosahedron.txt", cone_lines({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, "300"));
+  const std::vector<std::string> triangles = {"--cones", octahedron, "--quantize", "120", "--tiles", "300", "--lattice-coordinates"};
+  BOOST_TEST(Seamless(folder, sphere, triangles, 3).verdict.cones == 6u);
+  BOOST_TEST(Seamless(folder, sphere, {"--cones", icosahedron, "--quantize=60", "--tiles", "300", "--lattice-coordinates"}, 6).verdict.cones == 12u);
+}
+
+// Cartesian coordinates of hexagons are those of the lattice, rounded.
+BOOST_AUTO_TEST_CASE(coordinates_of_hexagons)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "icosphere.off", testing::icosphere(2));
+  const std::string cones = folder.write("cones.txt", cone_lines({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, "300"));
+  const Seamless lattice(folder, input, {"--cones", cones, "--quantize", "60", "--tiles", "100", "--lattice-coordinates"}, 6);
+  const std::string svg = content(folder / "o.svg");
+  BOOST_TEST(run({input, "-o", folder / "c.obj", "--svg", folder / "c.svg",
+                  "--cones", cones, "--quantize", "60", "--tiles", "100", "--seamless"}).status == 0);
+  const checking::Surface cartesian = checking::read_surface(folder / "c.obj");
+  for(std::size_t f = 0; f < cartesian.faces.size(); ++f)
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      const auto p = corner(lattice.layout, f, k), q = corner(cartesian, f, k);
+      BOOST_TEST(std::abs(p[0] + p[1] / 2 - q[0]) < 1e-13);
+      BOOST_TEST(std::abs(p[1] * std::sqrt(.75) - q[1]) < 1e-13);
+    }
+  // the drawing is Cartesian in both cases
+  BOOST_TEST(std::abs(double(content(folder / "c.svg").size()) - double(svg.size())) < 100);
+}
+
+BOOST_AUTO_TEST_CASE(seamless_layouts_are_refused)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "hills.off", two_hills(5)), obj = folder / "o.obj";
+  const auto refused = [&](const std::vector<std::string>& options, const std::string& reason)
+    { check_refused(with({input, "-o", obj}, options), 2, reason); };
+  // cones that place themselves
+  refused({"--cones", "auto"}, "needs a number (--cones auto=N), or a bound (--max-scale U or --max-area A); a file of this name: ./auto");
+  for(const char* number : {"", "0", "-1", "1.5", "many", "99999999999999999999"})
+    refused({"--cones", std::string("auto=") + number}, "--cones auto= takes a positive integer");
+  for(const char* bound : {"", "0", "-1", "nan", "inf", "small"})
+    refused({"--cones", "auto", "--max-scale", bound}, "--max-scale takes a number above 0");
+  for(const char* bound : {"1", "0.5", "nan", "inf"})
+    refused({"--cones", "auto", "--max-area", bound}, "--max-area takes a number above 1");
+  refused({"--max-scale", "1"}, "--max-scale needs --cones auto");
+  refused({"--cones", "file", "--max-area", "2"}, "--max-area needs --cones auto");
+  for(const char* quantum : {"0", "-90", "91", "400", "nan", "right", "0.1"})
+    refused({"--cones", "auto=3", std::string("--quantize=") + quantum}, "--quantize takes 360 degrees divided by an integer");
+  refused({"--quantize", "90"}, "--quantize needs --cones or --seamless");
+  refused({"--quantize"}, "--quantize needs --cones or --seamless");
+  refused({"--cones", "auto=3", "--boundary", "rectangle"}, "cones are placed for natural borders");
+  refused({"--cones", "auto=3", "--local-repair"}, "--cones auto=3 and --local-repair exclude each other");
+  refused({"--cones", "auto=3", "--precision", "100"}, "--cones auto=3 is computed with --precision double only");
+  refused({"--cones", "auto=3", "--target", "sphere"}, "--target sphere and --cones exclude each other");
+  // seamless layouts
+  refused({"--tiles", "4"}, "--tiles needs --seamless");
+  refused({"--distortion", "1.1"}, "--distortion needs --seamless");
+  refused({"--lattice-coordinates"}, "--lattice-coordinates needs --seamless");
+  refused({"--seamless", "--tiles", "0"}, "--tiles takes a positive integer");
+  refused({"--seamless", "--distortion", "1"}, "--distortion takes a number above 1");
+  refused({"--seamless", "--tiles", "4", "--distortion", "1.1"}, "--tiles and --distortion exclude each other");
+  for(const char* quantum : {"72", "45", "360", "30"})
+    refused({"--seamless", "--quantize", quantum}, "--seamless takes --quantize 180, 120, 90 or 60");
+  refused({"--seamless", "--projective"}, "--seamless and --projective exclude each other");
+  refused({"--seamless", "--refine"}, "--seamless and --refine exclude each other");
+  refused({"--seamless", "--local-repair"}, "--seamless and --local-repair exclude each other");
+  refused({"--seamless", "--frame", "unit-square"}, "--seamless and --frame unit-square exclude each other");
+  refused({"--seamless", "--precision", "100"}, "--seamless is computed with --precision double only");
+  refused({"--seamless", "--target", "disk"}, "--target disk and --seamless exclude each other");
+  refused({"--seamless", "--boundary", "disk"}, "--boundary disk and --seamless exclude each other");
+
+  // what follows --quantize is an angle, or else something of its own
+  const Run r = run({"--cones", "auto=1", "--quantize", input, "--quiet"});
+  BOOST_TEST(r.status == 0, r.err);
+
+  // cones of a file
+  const auto file_refused = [&](const std::string& lines, const std::vector<std::string>& options, const std::string& reason)
+    { check_refused(with({input, "-o", obj, "--cones", folder.write("c.txt", lines)}, options), 1, reason); };
+  file_refused("3 90\n4 free\n", {"--seamless"}, "c.txt: line 2: vertex 4: a free cone has any angle, not a multiple of 90 degrees");
+  file_refused("4\n", {"--quantize", "60"}, "c.txt: line 1: vertex 4: a free cone has any angle, not a multiple of 60 degrees");
+  file_refused("4 300\n", {"--seamless"}, "line 1: vertex 4: the angle 300 is no multiple of 90 degrees");
+  file_refused("4 1\n", {"--quantize", "120"}, "the angle 1 is no multiple of 120 degrees");
+  BOOST_TEST(run({input, "--cones", folder.write("c.txt", "4 300\n"), "--quantize", "60", "--quiet"}).status == 0);
+  const std::string six_sevenths = folder.write("c.txt", "4 308.5714286\n"); // 360 * 6 / 7
+  BOOST_TEST(run({input, "--cones", six_sevenths, "--quantize", "51.428571428571", "--quiet"}).status == 0);
+
+  // surfaces
+  const std::string torus = write_off(folder, "torus.off", testing::torus(24, 8)),
+                    annulus = write_off(folder, "annulus.off", testing::annulus(4, 20, .4)),
+                    sphere = write_off(folder, "sphere.off", testing::icosphere(1));
+  check_refused({sphere, "-o", obj, "--seamless"}, 1, "--cones auto=N");
+  check_refused({annulus, "-o", obj, "--seamless", "--cones", folder.write("c.txt", "50 270\n")}, 1,
+                "the two sides of the seam do not differ by a multiple");
+  check_refused({torus, "-o", obj, "--seamless", "--cones", folder.write("c.txt", "0 270\n100 450\n")}, 1,
+                "the two sides of the seam do not differ by a multiple");
+  BOOST_TEST((folder.files() == std::set<std::string>{"hills.off", "torus.off", "annulus.off", "sphere.off", "c.txt"}));
+}

@@ -1,0 +1,514 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The program flatten_mesh with --target sphere and --target disk.
+
+#define BOOST_TEST_MODULE test_flatten_mesh_sphere_and_disk
+#include "include/boost_test.h"
+#include "include/check_flattening.h"
+#include "include/check_image.h"
+#include "include/program_runs.h"
+#include "include/test_meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fs = std::filesystem;
+using namespace program;
+
+namespace {
+
+// Spikes: its triangulation needs flips. If they are long, straight triangles will not do.
+testing::Soup spiky_sphere(double length)
+{
+  testing::Soup soup = testing::icosphere(2);
+  for(std::size_t i = 0; i < soup.points.size(); i += 2)
+    for(double& x : soup.points[i])
+      x *= length;
+  return soup;
+}
+
+// A closed rod, askew.
+testing::Soup rod(testing::Index length)
+{
+  const std::array<testing::Point, 3> axes = {{ {{2 / std::sqrt(5.), -1 / std::sqrt(5.), 0}},
+    {{3 / std::sqrt(70.), 6 / std::sqrt(70.), -5 / std::sqrt(70.)}}, {{1 / std::sqrt(14.), 2 / std::sqrt(14.), 3 / std::sqrt(14.)}} }};
+  const auto place = [&](double x, double y, double z)
+  {
+    testing::Point result;
+    for(std::size_t k = 0; k < 3; ++k)
+      result[k] = x * axes[0][k] + y * axes[1][k] + z * axes[2][k];
+    return result;
+  };
+  testing::Soup soup = testing::tube(length, 6, false, [&](testing::Index i, testing::Index j)
+  {
+    const double angle = -2 * testing::pi * (j + .5 * (i % 2)) / 6; // so that triangles look outwards
+    return place(std::cos(angle), std::sin(angle), i);
+  });
+  const testing::Index n = testing::Index(soup.points.size());
+  soup.points.push_back(place(0, 0, -.5));
+  soup.points.push_back(place(0, 0, length + .5));
+  for(testing::Index j = 0; j < 6; ++j)
+  {
+    soup.triangles.push_back({{n, j, (j + 1) % 6}});
+    soup.triangles.push_back({{n + 1, n - 6 + (j + 1) % 6, n - 6 + j}});
+  }
+  return soup;
+}
+
+// A hill over 6 rings of triangles: its triangulation needs no flips. The border begins with vertex 91, and has 36 vertices.
+Soup hilly_rings()
+{
+  return program_soup(testing::rings(6, [](double x, double y) { return .4 * std::sin(2 * x + 1) * std::cos(3 * y); }));
+}
+
+// Folds: edges of its double are flipped.
+Soup steep_grid(std::size_t n)
+{
+  Soup soup = bumpy_grid(n);
+  for(std::size_t i = 0; i < soup.points.size(); ++i)
+    soup.points[i][2] = i % 3 == 0 ? .6 : 0;
+  return soup;
+}
+
+template <typename Verdict>
+bool is_good(const Verdict& verdict)
+{
+  BOOST_TEST_MESSAGE(verdict);
+  return verdict.is_good();
+}
+
+// Runs the program, which succeeds.
+struct Inscribed
+{
+  checking::Surface input, output;
+  std::string out, err;
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  nlohmann::json report;
+#endif
+
+  Inscribed(const Folder& folder, const std::string& file, const std::vector<std::string>& options)
+  {
+    std::vector<std::string> arguments = { file, "-o", folder / "i.obj" };
+    arguments.insert(arguments.end(), options.begin(), options.end());
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    arguments.insert(arguments.end(), { "--report", folder / "i.json" });
+#endif
+    const Run r = run(arguments);
+    BOOST_TEST_REQUIRE(r.status == 0, r.err);
+    out = r.out;
+    err = r.err;
+    input = checking::read_surface(file);
+    output = checking::read_surface(folder / "i.obj");
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    report = json(folder / "i.json");
+#endif
+  }
+};
+
+// The vertex in the layout of a disk.
+std::array<double, 2> place(const checking::Surface& s, std::size_t v)
+{
+  for(std::size_t f = 0; f < s.faces.size(); ++f)
+    for(std::size_t k = 0; k < 3; ++k)
+      if(s.faces[f][k] == v)
+        return corner(s, f, k);
+  return {{ 0, 0 }};
+}
+
+double distance(const std::array<double, 2>& p, double x, double y) { return std::hypot(p[0] - x, p[1] - y); }
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(checker_refuses_other_spheres_and_disks)
+{
+  const Folder folder;
+  const std::string sphere = write_off(folder, "sphere.off", bumpy_sphere(2)), disk = folder.write("hill.off", as_off(hilly_rings()));
+  const Inscribed s(folder, sphere, {"--target", "sphere"}), d(folder, disk, {"--target", "disk"});
+  BOOST_TEST(is_good(checking::check_sphere(s.input, s.output)));
+  BOOST_TEST(is_good(checking::check_disk(d.input, d.output)));
+
+  checking::Surface bad = s.output;
+  for(double& x : bad.points[7])
+    x *= 1 + 1e-15;
+  BOOST_TEST(! is_good(checking::check_sphere(s.input, bad))); // off the sphere
+  bad = s.output;
+  std::swap(bad.points[0], bad.points[7]);
+  BOOST_TEST(! is_good(checking::check_sphere(s.input, bad))); // triangles flipped
+  bad = s.output;
+  for(auto& p : bad.points)
+    p[2] = -p[2];
+  BOOST_TEST(! is_good(checking::check_sphere(s.input, bad))); // a mirror image
+  bad = s.output;
+  bad.points[3] = {{ std::cos(1e-6) * bad.points[3][0] - std::sin(1e-6) * bad.points[3][1],
+                     std::sin(1e-6) * bad.points[3][0] + std::cos(1e-6) * bad.points[3][1], bad.points[3][2] }};
+  checking::Image_tolerances loose;
+  loose.sphere = loose.barycentre = 1e-3;
+  BOOST_TEST(! is_good(checking::check_sphere(s.input, bad, loose))); // not conformal
+  loose.edges_were_flipped = true;
+  BOOST_TEST(is_good(checking::check_sphere(s.input, bad, loose)));
+  loose.lost_triangles = 1;
+  BOOST_TEST(! is_good(checking::check_sphere(s.input, bad, loose)));
+  bad = s.output;
+  bad.faces.pop_back();
+  BOOST_TEST(! is_good(checking::check_sphere(s.input, bad))); // a hole
+  const checking::Surface unmapped = [&] // onto the sphere, but not conformally, and not centred
+  {
+    checking::Surface result = s.input;
+    for(auto& p : result.points)
+    {
+      const double length = std::hypot(p[0], p[1], p[2]);
+      for(double& x : p)
+        x /= length;
+    }
+    return result;
+  }();
+  checking::Image_tolerances uncentred;
+  uncentred.barycentre = 1;
+  BOOST_TEST(! is_good(checking::check_sphere(s.input, unmapped, uncentred)));
+
+  bad = d.output;
+  for(auto& t : bad.texture)
+    t[0] *= 1 + 1e-15;
+  BOOST_TEST(! is_good(checking::check_disk(d.input, bad)));
+  bad = d.output;
+  for(auto& t : bad.texture)
+    t[0] = -t[0];
+  BOOST_TEST(! is_good(checking::check_disk(d.input, bad)));
+}
+
+BOOST_AUTO_TEST_CASE(target_sphere)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "sphere.off", bumpy_sphere(3));
+  std::vector<std::vector<std::string> > all = { {}, {"--vertex-at-infinity", "5"}, {"--retriangulate", "never"}, {"--refine"} };
+  std::vector<checking::Surface> spheres;
+  for(std::vector<std::string> options : all)
+  {
+    options.insert(options.end(), {"--target", "sphere", "--svg", folder / "i.svg"});
+    const Inscribed s(folder, input, options);
+    BOOST_TEST(is_good(checking::check_sphere(s.input, s.output)));
+    BOOST_TEST(s.err.empty());
+    BOOST_TEST(s.output.faces == s.input.faces);
+    BOOST_TEST(s.output.texture.empty());
+    BOOST_TEST(contains(s.out, "target                  sphere\n"));
+    BOOST_TEST(contains(s.out, "flipped triangles       0 (exact)\n"));
+    BOOST_TEST(contains(content(folder / "i.svg"), "</svg>"));
+    BOOST_TEST(contains(content(folder / "i.svg"), "id=\"circles\""));
+    BOOST_TEST(! fs::exists(folder / "i.mtl")); // no texture
+    spheres.push_back(s.output);
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    BOOST_TEST(s.report["status"] == "OK");
+    BOOST_TEST(s.report["target"] == "sphere");
+    BOOST_TEST(s.report["injective"] == "yes");
+    BOOST_TEST(s.report["flipped_triangles"] == 0);
+    BOOST_TEST(s.report["flipped_by_rounding"] == 0);
+    BOOST_TEST(s.report["retriangulation"]["flips"] == 0);
+    BOOST_TEST(s.report["refinement"].is_null());
+    BOOST_TEST(std::abs(s.report["solid_angle"].get<double>() - 4 * CGAL_PI) < 1e-10);
+    BOOST_TEST(s.report["barycentre"].get<double>() < 1e-12);
+    BOOST_TEST(s.report["unit_sphere_error"].get<double>() < 2e-16);
+    BOOST_TEST(s.report["cross_ratio_error"].get<double>() < 1e-10);
+    BOOST_TEST(s.report["cross_ratio_error"].get<double>() > 0);
+    BOOST_TEST(s.report["layout_length_error"].get<double>() < 1e-10);
+    BOOST_TEST(s.report["quasi_conformal"]["mean"].get<double>() >= 1);
+    BOOST_TEST(s.report["quasi_conformal"]["max"].get<double>() < 2);
+    BOOST_TEST(s.report["residual"].get<double>() <= 1e-12);
+#endif
+  }
+  // The sphere does not depend on the vertex at infinity.
+  for(std::size_t v = 0; v < spheres[0].points.size(); ++v)
+    for(std::size_t k = 0; k < 3; ++k)
+      BOOST_TEST(std::abs(spheres[1].points[v][k] - spheres[0].points[v][k]) < 1e-9);
+
+  // Other weights: the barycentre of the vertices is elsewhere.
+  const Inscribed areas(folder, input, {"--target", "sphere", "--moebius-weights", "areas"});
+  BOOST_TEST(! is_good(checking::check_sphere(areas.input, areas.output)));
+  checking::Image_tolerances uncentred;
+  uncentred.barycentre = 1;
+  BOOST_TEST(is_good(checking::check_sphere(areas.input, areas.output, uncentred)));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(areas.report["barycentre"].get<double>() < 1e-12); // with these weights
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(target_sphere_with_flips)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "spiky.off", spiky_sphere(3));
+  check_refused({input, "-o", folder / "i.obj", "--target", "sphere", "--retriangulate", "never"},
+                1, "--retriangulate never; other values flip edges");
+  BOOST_TEST((folder.files() == std::set<std::string>{"spiky.off"}));
+  checking::Image_tolerances tolerances;
+  tolerances.edges_were_flipped = true;
+  const Inscribed straight(folder, input, {"--target", "sphere"}); // straight triangles will do
+  BOOST_TEST(straight.output.faces == straight.input.faces);
+  BOOST_TEST(is_good(checking::check_sphere(straight.input, straight.output, tolerances)));
+  BOOST_TEST(! is_good(checking::check_sphere(straight.input, straight.output))); // cross ratios are others
+  for(const std::string mode : {"when-needed", "always"})
+  {
+    const Inscribed s(folder, input, {"--target", "sphere", "--refine", "--retriangulate", mode, "--svg", folder / "i.svg"});
+    BOOST_TEST(is_good(checking::check_sphere(s.input, s.output, tolerances)));
+    BOOST_TEST(s.output.points.size() > s.input.points.size());
+    BOOST_TEST(contains(s.out, "refined mesh"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    BOOST_TEST(s.report["retriangulation"]["mode"] == mode);
+    BOOST_TEST(s.report["retriangulation"]["flips"].get<int>() > 0);
+    BOOST_TEST(s.report["refinement"]["vertices"] == s.output.points.size());
+    BOOST_TEST(s.report["refinement"]["faces"] == s.output.faces.size());
+    BOOST_TEST(s.report["cross_ratio_error"].is_null());
+    BOOST_TEST(s.report["barycentre"].get<double>() < 1e-12);
+    BOOST_TEST(s.report["flipped_triangles"] == 0);
+    BOOST_TEST(s.report["injective"] == "yes");
+#endif
+  }
+}
+
+// Straight triangles would be flipped: the refined mesh is written.
+BOOST_AUTO_TEST_CASE(bent_triangles_on_the_sphere)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "spiky.off", spiky_sphere(6));
+  for(const std::string precision : {"double", "150"})
+  {
+    const Inscribed s(folder, input, {"--target", "sphere", "--precision", precision, "--require-injective", "--color-by", "qc"});
+    BOOST_TEST(is_good(checking::check_sphere(s.input, s.output)));
+    BOOST_TEST(s.output.points.size() > s.input.points.size());
+  }
+}
+
+// The points have as many digits as they were computed with.
+BOOST_AUTO_TEST_CASE(target_sphere_with_many_digits)
+{
+  typedef boost::multiprecision::cpp_bin_float_100 Real;
+  const Folder folder;
+  const std::string input = write_off(folder, "sphere.off", bumpy_sphere(1));
+  const Inscribed s(folder, input, {"--target", "sphere", "--precision", "200"});
+  BOOST_TEST(is_good(checking::check_sphere(s.input, s.output)));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(s.report["precision_bits"] == 200);
+  BOOST_TEST(s.report["cross_ratio_error"].get<double>() < 1e-55);
+  BOOST_TEST(s.report["unit_sphere_error"].get<double>() < 1e-59);
+  BOOST_TEST(s.report["triangles_lost_in_double"] == 0);
+#endif
+  std::istringstream in(content(folder / "i.obj"));
+  std::size_t number_of_points = 0;
+  Real worst = 0;
+  for(std::string kind, line; in >> kind && std::getline(in, line); )
+    if(kind == "v")
+    {
+      std::istringstream words(line);
+      std::string x, y, z;
+      words >> x >> y >> z;
+      const Real square = Real(x) * Real(x) + Real(y) * Real(y) + Real(z) * Real(z);
+      worst = (std::max)(worst, Real(abs(Real(square - 1))));
+      ++number_of_points;
+    }
+  BOOST_TEST(number_of_points == s.input.points.size());
+  BOOST_TEST(worst < 1e-59);
+  BOOST_TEST(worst > 1e-80); // of what rounding leaves
+}
+
+// Near the ends of a rod, points of the sphere are the same in double: that is said, and with more digits it does not happen.
+BOOST_AUTO_TEST_CASE(triangles_lost_on_the_sphere)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "rod.off", rod(80));
+  const Inscribed lost(folder, input, {"--target", "sphere"});
+  BOOST_TEST(contains(lost.err, "because points were rounded"));
+  BOOST_TEST(std::count(lost.err.begin(), lost.err.end(), '\n') == 1);
+  BOOST_TEST(contains(lost.out, "injective               no"));
+  const checking::Image_verdict verdict = checking::check_sphere(lost.input, lost.output);
+  BOOST_TEST(! verdict.is_good());
+  checking::Image_tolerances tolerances;
+  tolerances.lost_triangles = verdict.not_positive_triangles;
+  tolerances.edges_were_flipped = true; // between chords of length 0 there are no cross ratios
+  BOOST_TEST(is_good(checking::check_sphere(lost.input, lost.output, tolerances)));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(lost.report["flipped_by_rounding"] == verdict.not_positive_triangles);
+  BOOST_TEST(lost.report["flipped_triangles"].get<std::size_t>() + lost.report["degenerate_triangles"].get<std::size_t>()
+             == verdict.not_positive_triangles);
+  BOOST_TEST(lost.report["injective"] == "no");
+#endif
+  BOOST_TEST(run({input, "--target", "sphere", "--quiet"}).err.empty());
+  fs::remove(folder / "i.obj");
+  check_refused({input, "-o", folder / "i.obj", "--target", "sphere", "--require-injective"}, 1, "because points were rounded");
+  BOOST_TEST(! fs::exists(folder / "i.obj"));
+  const Run wide = run({input, "-o", folder / "i.obj", "--target", "sphere", "--require-injective", "--precision", "300"});
+  BOOST_TEST(wide.status == 0, wide.err);
+  BOOST_TEST(contains(wide.out, "triangles too small"));
+  BOOST_TEST(contains(wide.out, "injective               yes"));
+}
+
+BOOST_AUTO_TEST_CASE(target_disk)
+{
+  const Folder folder;
+  const std::string input = folder.write("hill.off", as_off(hilly_rings()));
+  const std::vector<std::vector<std::string> > all = {
+    {"--target", "disk"}, {"--boundary", "disk"}, {"--boundary", "disk", "--target", "disk", "--vertex-at-infinity", "100"},
+    {"--target", "disk", "--projective"}, {"--target", "disk", "--moebius-weights", "areas"},
+    {"--target", "disk", "--disk-centre", "20"}, {"--target", "disk", "--disk-points", "95,99,120"} };
+  std::vector<checking::Surface> disks;
+  for(std::vector<std::string> options : all)
+  {
+    options.insert(options.end(), {"--svg", folder / "i.svg", "--html", folder / "i.html"});
+    const Inscribed d(folder, input, options);
+    BOOST_TEST(is_good(checking::check_disk(d.input, d.output)));
+    BOOST_TEST(judge(input, folder / "i.obj", false).is_good());
+    BOOST_TEST(d.output.has_weights == (options[2] == "--projective"));
+    BOOST_TEST(contains(d.out, "target                  disk\n"));
+    BOOST_TEST(contains(content(folder / "i.svg"), "id=\"circles\""));
+    BOOST_TEST(contains(content(folder / "i.html"), "</html>"));
+    BOOST_TEST(fs::exists(folder / "i.mtl"));
+    disks.push_back(d.output);
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    BOOST_TEST(d.report["target"] == "disk");
+    BOOST_TEST(d.report["injective"] == "yes");
+    BOOST_TEST(d.report["flipped_by_rounding"] == 0);
+    BOOST_TEST(d.report["unit_circle_error"].get<double>() < 4e-16);
+    BOOST_TEST(d.report["cross_ratio_error"].get<double>() < 1e-9);
+    BOOST_TEST(d.report["layout_length_error"].get<double>() < 1e-9);
+    BOOST_TEST(! d.report.contains("solid_angle"));
+#endif
+  }
+  double difference = 0, to_areas = 0;
+  for(std::size_t v = 0; v < 127; ++v)
+  {
+    const auto p = place(disks[0], v), q = place(disks[2], v), r = place(disks[4], v);
+    BOOST_TEST((p == place(disks[1], v)));
+    difference = (std::max)(difference, distance(p, q[0], q[1]));
+    to_areas = (std::max)(to_areas, distance(p, r[0], r[1]));
+  }
+  BOOST_TEST(difference < 1e-9); // another vertex at infinity
+  BOOST_TEST(to_areas > 1e-4);
+  BOOST_TEST(distance(place(disks[0], 91), 1, 0) < 1e-15); // the first border vertex
+  BOOST_TEST(distance(place(disks[5], 20), 0, 0) < 1e-14);
+  BOOST_TEST(distance(place(disks[0], 20), 0, 0) > 1e-3);
+  BOOST_TEST(distance(place(disks[6], 95), 1, 0) < 1e-14);
+  BOOST_TEST(distance(place(disks[6], 99), -.5, std::sqrt(.75)) < 1e-14);
+  BOOST_TEST(distance(place(disks[6], 120), -.5, -std::sqrt(.75)) < 1e-14);
+
+  const Inscribed wide(folder, input, {"--target", "disk", "--precision", "200", "--disk-centre", "20"});
+  BOOST_TEST(is_good(checking::check_disk(wide.input, wide.output)));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(wide.report["cross_ratio_error"].get<double>() < 1e-50);
+  BOOST_TEST(wide.report["unit_circle_error"].get<double>() < 1e-59);
+  BOOST_TEST(wide.report["injective"] == "yes");
+#endif
+  const std::string obj = content(folder / "i.obj");
+  BOOST_TEST(obj.substr(obj.find("vt ") + 3, 100).find(' ') > 45u); // digits
+
+  // a disk without vertices inside
+  const std::string triangle = folder.write("triangle.off", off("0 0 0\n1 0 0\n0 1 0\n", "3 0 1 2\n"));
+  const Inscribed one(folder, triangle, {"--target", "disk"});
+  BOOST_TEST(is_good(checking::check_disk(one.input, one.output)));
+}
+
+BOOST_AUTO_TEST_CASE(target_disk_with_flips)
+{
+  const Folder folder;
+  const std::string input = folder.write("steep.off", as_off(steep_grid(9)));
+  check_refused({input, "-o", folder / "i.obj", "--target", "disk", "--retriangulate", "never"}, 1, "--retriangulate never; other values flip edges");
+  for(const std::vector<std::string>& more : { std::vector<std::string>{"--refine"}, {"--projective"}, {"--refine", "--precision", "150"} })
+  {
+    std::vector<std::string> options = more;
+    options.insert(options.end(), {"--target", "disk"});
+    const Inscribed d(folder, input, options);
+    BOOST_TEST(is_good(checking::check_disk(d.input, d.output)));
+    BOOST_TEST(d.output.points.size() > d.input.points.size());
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    BOOST_TEST(d.report["retriangulation"]["flips"].get<int>() > 0);
+    BOOST_TEST(d.report["retriangulation"]["doubled"] == true);
+    BOOST_TEST(d.report["refinement"]["vertices"] == d.output.points.size());
+    BOOST_TEST(d.report["cross_ratio_error"].is_null());
+    BOOST_TEST(d.report["flipped_triangles"] == 0);
+#endif
+  }
+}
+
+BOOST_AUTO_TEST_CASE(sphere_and_disk_are_refused)
+{
+  const Folder folder;
+  const std::string grid = folder.write("grid.off", as_off(bumpy_grid(4))), obj = folder / "o.obj", // border: 0, 1, ..., 4, 9, ..., 24, ...
+                    hill = folder.write("hill.off", as_off(hilly_rings())), sphere = write_off(folder, "sphere.off", bumpy_sphere(1)),
+                    torus = write_off(folder, "torus.off", testing::torus(8, 8)), annulus = write_off(folder, "annulus.off", testing::annulus(4, 12));
+  const std::set<std::string> before = folder.files();
+  const auto refused = [&](const std::string& input, const std::string& target, const std::string& reason)
+    { check_refused({input, "-o", obj, "--target", target}, 1, reason); };
+  refused(grid, "sphere", "found 1 component, 1 border, genus 0; --target sphere takes closed surfaces");
+  refused(torus, "sphere", "found 1 component, 0 borders, genus 1");
+  refused(sphere, "disk", "found 1 component, 0 borders, genus 0; --target disk takes surfaces");
+  refused(annulus, "disk", "found 1 component, 2 borders, genus 0");
+
+  for(const std::string target : {"sphere", "disk"})
+    for(const std::string mode : {"never", "when-needed", "always"})
+      check_refused({target == "sphere" ? sphere : hill, "-o", obj, "--target", target, "--retriangulate", mode, "--max-iterations", "0"},
+                    1, "did not converge");
+
+  // vertices
+  const auto of = [&](const std::string& input, const std::string& target, const std::vector<std::string>& options, const std::string& reason)
+  {
+    std::vector<std::string> arguments = {input, "-o", obj, "--target", target};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    check_refused(arguments, 1, reason);
+  };
+  of(sphere, "sphere", {"--vertex-at-infinity", "42"}, "there is no vertex 42; the mesh has 42 vertices");
+  of(grid, "disk", {"--vertex-at-infinity", "6"}, "vertex 6 is not on the border");
+  of(grid, "disk", {"--disk-centre", "25"}, "there is no vertex 25");
+  of(grid, "disk", {"--disk-centre", "4"}, "vertex 4 is on the border");
+  of(grid, "disk", {"--disk-points", "0,4,12"}, "vertex 12 is not on the border");
+  of(grid, "disk", {"--disk-points", "0,24,4"}, "the vertices are given clockwise; counterclockwise: 0,4,24");
+  BOOST_TEST(folder.files() == before, boost::test_tools::per_element());
+
+  // usage
+  const auto excluded = [&](const std::vector<std::string>& options, const std::string& a, const std::string& b)
+  {
+    std::vector<std::string> arguments = {"a.off"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    check_refused(arguments, 2, a);
+    check_refused(arguments, 2, b);
+  };
+  for(const std::string target : {"sphere", "disk"})
+  {
+    const std::string name = "--target " + target;
+    for(const std::string boundary : {"natural", "rectangle", "rectangle=1,2,3,4", "angles=f", "scale=f"})
+      excluded({"--target", target, "--boundary", boundary}, name, "--boundary " + boundary);
+    excluded({"--target", target, "--cones", "f"}, name, "--cones");
+    excluded({"--target", target, "--frame", "unit-square"}, name, "--frame");
+    excluded({"--target", target, "--local-repair"}, name, "--local-repair");
+    excluded({"--target", target, "--keep-border"}, name, "--keep-border");
+  }
+  excluded({"--boundary", "disk", "--cones", "f"}, "--boundary disk", "--cones");
+  excluded({"--boundary", "disk", "--target", "plane"}, "--boundary disk", "--target plane");
+  excluded({"--boundary", "disk", "--target", "sphere"}, "--boundary disk", "--target sphere");
+  check_refused({"a.off", "--boundary", "disk", "--boundary", "natural"}, 2, "exclude each other");
+  check_refused({"a.off", "--boundary", "disk=3"}, 2, "unknown value 'disk=3'");
+  check_refused({"a.off", "--target", "cube"}, 2, "unknown value 'cube' of --target");
+  excluded({"--target", "sphere", "--projective"}, "--target sphere", "--projective");
+  excluded({"--target", "sphere", "--html", "h"}, "--target sphere", "--html");
+  excluded({"--target", "disk", "--disk-centre", "1", "--disk-points", "1,2,3"}, "--disk-centre", "--disk-points");
+  excluded({"--target", "disk", "--disk-centre", "1", "--moebius-weights", "areas"}, "--disk-centre", "--moebius-weights");
+  excluded({"--target", "disk", "--disk-points", "1,2,3", "--moebius-weights", "areas"}, "--disk-points", "--moebius-weights");
+  for(const std::string target : {"plane", "sphere"})
+  {
+    check_refused({"a.off", "--target", target, "--disk-centre", "1"}, 2, "--disk-centre needs --target disk");
+    check_refused({"a.off", "--target", target, "--disk-points", "1,2,3"}, 2, "--disk-points needs --target disk");
+  }
+  check_refused({"a.off", "--vertex-at-infinity", "1"}, 2, "--vertex-at-infinity needs --target sphere");
+  check_refused({"a.off", "--moebius-weights", "areas"}, 2, "--moebius-weights needs --target sphere");
+  check_refused({"a.off", "--target", "disk", "--moebius-weights", "masses"}, 2, "unknown value 'masses' of --moebius-weights");
+  for(const std::string bad : {"", "-1", "1,2", "x", "1.5"})
+  {
+    check_refused({"a.off", "--target", "disk", "--vertex-at-infinity", bad}, 2, "--vertex-at-infinity takes the index of a vertex");
+    check_refused({"a.off", "--target", "disk", "--disk-centre", bad}, 2, "--disk-centre takes the index of a vertex");
+    check_refused({"a.off", "--target", "disk", "--disk-points", bad}, 2, "--disk-points takes the indices of three different vertices");
+  }
+  check_refused({"a.off", "--target", "disk", "--disk-points", "1,2,2"}, 2, "three different vertices");
+}
