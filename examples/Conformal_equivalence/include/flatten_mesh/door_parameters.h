@@ -10,7 +10,9 @@
 #include "results.h"
 #include "Solver_traits.h"
 
+#include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/options.h>
 #include <CGAL/number_utils.h>
 
 #include <functional>
