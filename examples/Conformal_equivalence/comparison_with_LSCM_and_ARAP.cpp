@@ -86,11 +86,6 @@ int main(int argc, char* argv[])
     std::cerr << "Invalid input: " << filename << std::endl;
     return EXIT_FAILURE;
   }
-  if(PMP::longest_border(sm).first == Mesh::null_halfedge())
-  {
-    std::cerr << "The mesh has no border: " << filename << std::endl;
-    return EXIT_FAILURE;
-  }
 
   std::cout << "                         quasi-conformal factor   flipped  border scales\n"
             << "                                mean         max triangles     max / min" << std::endl;

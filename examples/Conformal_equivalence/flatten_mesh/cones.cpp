@@ -13,7 +13,7 @@ Report place_cones(const Options& options, const Conditions& conditions, Results
 {
   Progress_visitor visitor(progress);
   const Report report = CE::place_cones(results.given.mesh, conditions.cone_angle,
-                                        placement_parameters(options, plane_parameters(options, results, visitor)));
+                                        placement_parameters(options, results, visitor));
   if(report && options.quanta_of_turn == 0)
     for(const auto& cone : report.cones)
     {

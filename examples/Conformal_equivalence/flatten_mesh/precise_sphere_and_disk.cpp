@@ -23,9 +23,7 @@ Report map_to_sphere_precisely(const Options& options, Results& results, Progres
   Result& given = results.given;
   CE::Spherical_refinement<CE::Multiprecision_number> found;
   const Report report = CE::map_to_sphere<CE::Multiprecision_number>(given.mesh, make_image_map(given.mesh, given.wide_image),
-    common_parameters(options, results, visitor).moebius_weights(given_moebius_weights(options))
-                                                .vertex_at_infinity(given_vertex_at_infinity(options, given.mesh))
-                                                .spherical_refinement(std::ref(found)));
+    image_parameters(options, results, visitor).spherical_refinement(std::ref(found)));
   results.refinement = rounded(parts_without_layout(found));
   results.made.wide_image = std::move(found.points);
   given.image = rounded(given.wide_image);
@@ -40,9 +38,7 @@ Report map_to_disk_precisely(const Options& options, Results& results, Progress&
   Progress_visitor visitor(progress);
   Result& given = results.given;
   use_wide_points(given.mesh, given.wide);
-  const auto np = common_parameters(options, results, visitor).moebius_weights(given_moebius_weights(options))
-                                                              .vertex_at_infinity(given_vertex_at_infinity(options, given.mesh))
-                                                              .common_refinement(std::ref(given.wide.refinement));
+  const auto np = image_parameters(options, results, visitor).common_refinement(std::ref(given.wide.refinement));
   const Report report = map_with_disk_frame(options, given.mesh, np, [&](const auto& all)
     { return CE::map_to_disk<CE::Multiprecision_number>(given.mesh, make_image_map(given.mesh, given.wide_image), all); });
   for(Halfedge h : given.mesh.halfedges())

@@ -12,10 +12,10 @@ Report flatten_seamlessly_with_given_cones(const Options& options, const Conditi
 {
   Progress_visitor visitor(progress);
   return CE::compute_seamless_parameterization(results.given.mesh, results.given.uv,
-    tiling_parameters(options, plane_parameters(options, results, visitor)).cone_angle_map(conditions.cone_angle)
-                                                                           .border_angle_map(conditions.border_angle)
-                                                                           .vertex_is_constrained_map(conditions.is_constrained)
-                                                                           .prescribed_log_scale_factor_map(conditions.u));
+    tiling_parameters(options, results, visitor).cone_angle_map(conditions.cone_angle)
+                                                .border_angle_map(conditions.border_angle)
+                                                .vertex_is_constrained_map(conditions.is_constrained)
+                                                .prescribed_log_scale_factor_map(conditions.u));
 }
 
 } // namespace flattening

@@ -12,7 +12,7 @@ Report flatten_seamlessly_with_placed_cones(const Options& options, Results& res
 {
   Progress_visitor visitor(progress);
   return CE::compute_seamless_parameterization(results.given.mesh, results.given.uv,
-                                               tiling_parameters(options, plane_parameters(options, results, visitor)));
+                                               tiling_parameters(options, results, visitor));
 }
 
 } // namespace flattening

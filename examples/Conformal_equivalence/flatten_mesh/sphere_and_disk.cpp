@@ -78,9 +78,7 @@ Report map_to_sphere(const Options& options, Results& results, Progress& progres
   Result& given = results.given;
   CE::Spherical_refinement<double> found;
   const Report report = CE::map_to_sphere(given.mesh, make_image_map(given.mesh, given.image),
-    common_parameters(options, results, visitor).moebius_weights(given_moebius_weights(options))
-                                                .vertex_at_infinity(given_vertex_at_infinity(options, given.mesh))
-                                                .spherical_refinement(std::ref(found)));
+    image_parameters(options, results, visitor).spherical_refinement(std::ref(found)));
   results.refinement = parts_without_layout(found);
   results.made.image = std::move(found.points);
   if(report.statistics.number_of_flips == 0)
@@ -92,9 +90,7 @@ Report map_to_disk(const Options& options, Results& results, Progress& progress)
 {
   Progress_visitor visitor(progress);
   Result& given = results.given;
-  const auto np = common_parameters(options, results, visitor).moebius_weights(given_moebius_weights(options))
-                                                              .vertex_at_infinity(given_vertex_at_infinity(options, given.mesh))
-                                                              .common_refinement(std::ref(results.refinement));
+  const auto np = image_parameters(options, results, visitor).common_refinement(std::ref(results.refinement));
   const Report report = map_with_disk_frame(options, given.mesh, np, [&](const auto& all)
     { return CE::map_to_disk(given.mesh, make_image_map(given.mesh, given.image), all); });
   for(Halfedge h : given.mesh.halfedges())

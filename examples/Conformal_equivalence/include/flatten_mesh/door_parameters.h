@@ -19,11 +19,10 @@
 
 namespace flattening {
 
-// The parameters of all functions that make maps.
+// The parameters of all functions that make maps, and of the search for cones.
 inline auto common_parameters(const Options& options, const Results& results, Progress_visitor& visitor)
 {
   return CGAL::parameters::log_scale_factor_map(results.given.u)
-                          .projective_weight_map(results.given.weight)
                           .mollification(options.mollification)
                           .gradient_tolerance(options.precision_in_bits > bits_of_double ? 0. : options.tolerance)
                           .number_of_iterations(options.maximum_number_of_iterations)
@@ -43,6 +42,7 @@ inline auto plane_parameters(const Options& options, const Results& results, Pro
 inline auto flattening_parameters(const Options& options, const Conditions& conditions, const Results& results, Progress_visitor& visitor)
 {
   return plane_parameters(options, results, visitor)
+           .projective_weight_map(results.given.weight)
            .border_angle_map(conditions.border_angle)
            .cone_angle_map(conditions.cone_angle)
            .vertex_is_constrained_map(conditions.is_constrained)
@@ -51,20 +51,20 @@ inline auto flattening_parameters(const Options& options, const Conditions& cond
 }
 
 // The parameters of the search for cones.
-template <typename NamedParameters>
-auto placement_parameters(const Options& options, const NamedParameters& np)
+inline auto placement_parameters(const Options& options, const Results& results, Progress_visitor& visitor)
 {
-  return np.number_of_cones(options.number_of_cones)
+  return plane_parameters(options, results, visitor)
+           .number_of_cones(options.number_of_cones)
            .maximum_log_scale_factor(options.maximum_log_scale_factor)
            .maximum_area_distortion(options.maximum_area_distortion)
            .angle_quantum(options.quanta_of_turn == 0 ? 0. : 2 * CGAL_PI / options.quanta_of_turn);
 }
 
 // Those of a seamless layout.
-template <typename NamedParameters>
-auto tiling_parameters(const Options& options, const NamedParameters& np)
+inline auto tiling_parameters(const Options& options, const Results& results, Progress_visitor& visitor)
 {
-  return placement_parameters(options, np)
+  return placement_parameters(options, results, visitor)
+           .projective_weight_map(results.given.weight)
            .number_of_tiles(options.number_of_tiles)
            .maximum_distortion(options.maximum_distortion)
            .seamless_coordinates(options.lattice_coordinates ? CE::Seamless_coordinates::LATTICE : CE::Seamless_coordinates::CARTESIAN);

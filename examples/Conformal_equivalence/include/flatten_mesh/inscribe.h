@@ -6,6 +6,7 @@
 #ifndef FLATTEN_MESH_INSCRIBE_H
 #define FLATTEN_MESH_INSCRIBE_H
 
+#include "door_parameters.h"
 #include "mesh.h"
 #include "options.h"
 #include "precision.h"
@@ -66,6 +67,15 @@ CE::Common_refinement<NT> parts_without_layout(CE::Spherical_refinement<NT>& fou
   CE::Common_refinement<NT> parts = std::move(found.parts);
   parts.corner_uv.assign(parts.corner_vertex.size(), {{ NT(0), NT(0) }});
   return parts;
+}
+
+// The parameters of maps to the sphere and the disk.
+inline auto image_parameters(const Options& options, const Results& results, Progress_visitor& visitor)
+{
+  return common_parameters(options, results, visitor)
+           .projective_weight_map(results.given.weight)
+           .moebius_weights(given_moebius_weights(options))
+           .vertex_at_infinity(given_vertex_at_infinity(options, results.given.mesh));
 }
 
 // What `map(np)` returns for the frame of the disk that is given, which it has among its parameters.
