@@ -1,14 +1,13 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// How named parameters are read: whether one was given, the visitor, and what is written
-// through a parameter.
+// How named parameters are read: whether one was given, and what is written through a
+// parameter. (The visitor is in Any_visitor.h, the linear solver in solver_traits_of.h.)
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_PARAMETER_READERS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_PARAMETER_READERS_H
 
 #include <CGAL/Conformal_equivalence/named_parameters.h>
-#include <CGAL/Conformal_equivalence/options.h>
 
 #include <CGAL/use.h>
 
@@ -32,21 +31,6 @@ inline constexpr bool is_given = !std::is_same<Given_parameter<Tag, NamedParamet
 template <typename T> struct Reference_parameter : public std::false_type {};
 template <typename T> struct Reference_parameter<std::reference_wrapper<T> > : public std::true_type { typedef T type; };
 template <typename T> struct Reference_parameter<std::reference_wrapper<const T> > : public std::false_type {};
-
-// The visitor: the one that was given by `std::ref`, otherwise a copy of the one given, or the
-// default. The caller holds it by `auto&&`.
-template <typename NamedParameters>
-decltype(auto) visitor_of(const NamedParameters& np)
-{
-  CGAL_USE(np);
-  typedef Given_parameter<CGAL::internal_np::visitor_t, NamedParameters> Visitor;
-  if constexpr(!is_given<CGAL::internal_np::visitor_t, NamedParameters>)
-    return Default_visitor();
-  else if constexpr(Reference_parameter<Visitor>::value)
-    return CGAL::parameters::get_parameter(np, CGAL::internal_np::visitor).get();
-  else
-    return Visitor(CGAL::parameters::get_parameter(np, CGAL::internal_np::visitor));
-}
 
 // Assigns `value` to the object that was given by `std::ref`, if there is one.
 template <typename Tag, typename NamedParameters, typename Value>
