@@ -307,7 +307,7 @@ BOOST_AUTO_TEST_CASE(conditions_and_results_through_the_constructor)
                                            .layout_frame(CE::Layout_frame::UNIT_SQUARE)
                                            .flattening_report(std::ref(report)).number_of_iterations(50));
   BOOST_TEST_REQUIRE((SMP::parameterize(m.sm, parameterizer, m.bhd, m.uv) == SMP::OK), CE::message(report));
-  double low = 1, high = 0, least = 1e300, largest = 0;
+  double low = 1, high = 0, least = 1e300, largest = 0, shortest = 1e300;
   for(Vertex v : vertices(m.sm))
   {
     low = (std::min)({low, m.uv[v].x(), m.uv[v].y()});
@@ -317,12 +317,14 @@ BOOST_AUTO_TEST_CASE(conditions_and_results_through_the_constructor)
   BOOST_TEST(high <= 1);
   for(Edge e : edges(m.sm))
   {
-    const double scale = plane_distance(m.uv[source(e, m.sm)], m.uv[target(e, m.sm)]) / scaled_length[e];
+    const double length = plane_distance(m.uv[source(e, m.sm)], m.uv[target(e, m.sm)]), scale = length / scaled_length[e];
+    shortest = (std::min)(shortest, length);
     least = (std::min)(least, scale);
     largest = (std::max)(largest, scale);
   }
-  // the edges are longer than a twelfth of the square: their ends, each rounded in two coordinates by epsilon at most, change
-  // their lengths by 34 epsilon relatively, and the quotient of two of them by twice that
+  // of an edge longer than a twelfth, the ends, each rounded in two coordinates by epsilon at most, change the length by 34 epsilon
+  // relatively, and the quotient of two by twice that
+  BOOST_TEST(shortest > 1. / 12);
   BOOST_TEST(largest / least - 1 <= 68 * epsilon);
 
   const std::vector<Point_2> before(m.uv.begin(), m.uv.end());

@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
+#include <CGAL/Conformal_equivalence/internal/solver_traits_of.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
@@ -185,13 +186,8 @@ Conformal_metric<NT> compute_conformal_metric(Intrinsic_triangulation<NT> t,
                                               const Conformal_conditions<NT>& conditions,
                                               const NamedParameters& np = parameters::default_values())
 {
-  typedef typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t, NamedParameters,
-                                                       Default_solver_traits>::type Solver_traits;
-  using parameters::choose_parameter;
-  using parameters::get_parameter;
-  return Conformal_metric_solver<NT, Solver_traits>(
-      std::move(t), choose_parameter<Solver_traits>(get_parameter(np, internal_np::sparse_linear_solver)))
-    .solve(conditions, np);
+  typedef internal::Solver_traits_of<NamedParameters> Solver_traits;
+  return Conformal_metric_solver<NT, Solver_traits>(std::move(t), internal::solver_traits_of(np)).solve(conditions, np);
 }
 
 } // namespace Conformal_equivalence

@@ -38,6 +38,7 @@
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/solver_traits_of.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
@@ -164,8 +165,7 @@ class Ideal_polyhedron_finder
   typedef Conformal_metric<NT> Metric;
   typedef Ideal_polyhedron<NT> Polyhedron;
   typedef typename Polyhedron::Wide Wide;
-  typedef typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t, NamedParameters,
-                                                       Default_solver_traits>::type Solver_traits;
+  typedef Solver_traits_of<NamedParameters> Solver_traits;
 
 public:
   // `np`: those of the solver
@@ -281,10 +281,7 @@ private:
 
   Metric solve(Triangulation rest, const Conformal_conditions<NT>& conditions, const std::vector<double>& u) const
   {
-    using parameters::choose_parameter;
-    using parameters::get_parameter;
-    Conformal_metric_solver<NT, Solver_traits> solver(
-      std::move(rest), choose_parameter<Solver_traits>(get_parameter(np_, internal_np::sparse_linear_solver)));
+    Conformal_metric_solver<NT, Solver_traits> solver(std::move(rest), solver_traits_of(np_));
     Solver_options options = read_solver_options(solver_parameters(), solver.triangulation().number_of_vertices());
     options.retriangulation = Retriangulation::WHEN_NEEDED;
     options.border_edges = Border_edges::KEPT;
