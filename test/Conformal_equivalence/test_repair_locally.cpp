@@ -9,6 +9,7 @@
 
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
 #include <CGAL/Conformal_equivalence/edge_lengths.h>
+#include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/flatten_repaired.h>
 #include <CGAL/Conformal_equivalence/repair_locally.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>

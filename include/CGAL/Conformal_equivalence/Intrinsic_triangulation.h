@@ -99,6 +99,7 @@ public:
   static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }     ///< the next side of the face, counterclockwise
   static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; } ///< the next side of the face, clockwise
   static Index face(Index h) { return h / 3; }                          ///< the face on the left of `h`
+  static Index halfedge(Index f) { return 3 * f; }                      ///< the first side of the face `f`
 
   Index origin(Index h) const { return origin_[h]; }                    ///< the vertex where `h` begins
   Index target(Index h) const { return origin_[next(h)]; }              ///< the vertex where `h` ends

@@ -15,6 +15,7 @@
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Seamless_parameterization.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
@@ -140,7 +141,8 @@ Flattening_report<TriangleMesh> compute_seamless_parameterization(const Triangle
 {
   static_assert(internal::Check_halfedge_map<HalfedgeUVMap, TriangleMesh>::value);
   static_assert(internal::Check_pack<internal::Parameters_of_seamless_parameterization, TriangleMesh, NamedParameters>::value);
-  internal::Seamless_parameterization<TriangleMesh> seamless(internal::import_charts(tm, np), internal::read_seamless_options(np));
+  const internal::Stopwatch stopwatch;
+  internal::Seamless_parameterization<TriangleMesh> seamless(internal::import_charts(tm, np), stopwatch, internal::read_seamless_options(np));
   seamless.run(np);
   const Flattening_report<TriangleMesh>& report = seamless.flattening.report;
   if(bool(report) || report.status == Status::BOUND_NOT_MET)

@@ -76,8 +76,7 @@ Flattening_report<TriangleMesh> flatten_refined(const TriangleMesh& tm,
   static_assert(internal::Check_pack<internal::Parameters_of_flatten, TriangleMesh, NamedParameters>::value);
   static_assert(internal::Check_pack<internal::Parameters_of_refined_mesh, RefinedMesh, NamedParametersRefined>::value);
   const internal::Stopwatch stopwatch;
-  internal::Flattening<TriangleMesh> flattening{internal::import_charts(tm, np)};
-  flattening.report.statistics.seconds.import = stopwatch.seconds();
+  internal::Flattening<TriangleMesh> flattening(internal::import_charts(tm, np), stopwatch);
   flattening.run_with_refinement(np, true);
   if(bool(flattening.report))
   {

@@ -210,7 +210,8 @@ public:
     const face_descriptor f = Conformal_equivalence::internal::face_at_border(bhd, tm);
     if(f == boost::graph_traits<Triangle_mesh>::null_face())
       return refuse_without_border(tm);
-    Flattening flattening(seam_is_border_ ? import_cut_open(f, tm) : import_whole(f, tm));
+    const Conformal_equivalence::internal::Stopwatch stopwatch;
+    Flattening flattening(seam_is_border_ ? import_cut_open(f, tm) : import_whole(f, tm), stopwatch);
     const std::uint32_t index_of_f = flattening.mesh.index_of_face(f);
     flatten_(flattening, seam(flattening.mesh, tm), index_of_f);
     if(!bool(flattening.report))

@@ -7,6 +7,7 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_PARAMETER_READERS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_PARAMETER_READERS_H
 
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/use.h>

@@ -13,8 +13,9 @@
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/report_cones.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/Flattening.h>
+#include <CGAL/Conformal_equivalence/internal/Doors/Stages.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Quantized_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Rectification.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Rectified_layout.h>
@@ -57,19 +58,23 @@ class Seamless_parameterization
 public:
   Flattening<TriangleMesh> flattening;
 
-  Seamless_parameterization(Imported_mesh<TriangleMesh> mesh, const Seamless_options& options)
-    : flattening(std::move(mesh)), options_(options)
+  // `since`: begun before the mesh was imported
+  Seamless_parameterization(Imported_mesh<TriangleMesh> mesh, const Stopwatch& since, const Seamless_options& options)
+    : flattening(std::move(mesh), since), options_(options)
   {}
 
   template <typename NamedParameters>
   void run(const NamedParameters& np)
   {
-    const auto verify_nothing = [] {}; // what is judged is the layout that is rectified
-    flattening.run_with_metric(np, [&]
+    flattening.import_lengths(np);
+    run_step(flattening.report, [&]
     {
       if(check())
         find_metric(np);
-    }, verify_nothing);
+    });
+    flattening.find_cut();
+    flattening.lay_out(); // what is judged is the layout that is rectified
+    flattening.tell_what_was_found();
     if(bool(flattening.report))
       rectify(make_factorization(solver_traits_of(np)));
   }
@@ -122,7 +127,11 @@ private:
       take(place_cones_with(flattening.mesh.triangulation, options, np));
     }
     else
-      flattening.find_metric(np, [&] { return check_cones(); });
+    {
+      flattening.read_conditions(np);
+      if(bool(flattening.report) && check_cones())
+        flattening.solve(np);
+    }
   }
 
   void take(Cone_placement<double> placement)
@@ -139,7 +148,7 @@ private:
       metric.amount = placement_.amount;
     }
     are_cones_placed_ = true;
-    flattening.take(std::move(metric), std::move(conditions));
+    flattening.take_metric(std::move(metric), std::move(conditions));
   }
 
   // The cones given must have multiples of the quantum; those of free angle have none that is known.
