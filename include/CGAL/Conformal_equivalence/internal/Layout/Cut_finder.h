@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/Seam_conditions.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/Shortest_path_forest.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/cut_open.h>
