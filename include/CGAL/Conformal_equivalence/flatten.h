@@ -46,9 +46,9 @@ namespace Conformal_equivalence {
 /// and pi - angle on borders sum up to 2 pi chi (Gauss-Bonnet). So a closed surface needs cones, at least three on a sphere,
 /// unless it is a torus: that has a flat metric without cones, and a lattice of periods, which the report holds.
 ///
-/// *Charts*: with `face_patch_map` every maximal set of faces of one patch that is connected through edges is a surface of its own, and the edges between
-/// patches are borders. Maps of vertices hold for all charts at a vertex; what is written to one is what was found for one of them (for natural
-/// borders, u = 0 for all).
+/// *Charts*: with `face_patch_map` every maximal set of faces of one patch that is connected through edges is a surface of its own, and the
+/// edges between patches are borders. Maps of vertices hold for all charts at a vertex; what is written to one is what was found for one of
+/// them (for natural borders, u = 0 for all).
 ///
 /// A `Seam_mesh` is taken for the surface that it is, cut open, with maps of its own vertices and edges; to use its seam
 /// just for cutting, see `Surface_mesh_parameterization::Conformal_equivalence_parameterizer_3`.

@@ -56,7 +56,7 @@ bool is_positive_triangle(const Layout<NT>& layout, std::uint32_t f)
   return is_left_turn(layout.corner[3 * f], layout.corner[3 * f + 1], layout.corner[3 * f + 2]);
 }
 
-// The cones of a metric found, for the report. `vertex(v)` is the vertex number v of the mesh.
+// Tells the report the cones of a metric that was found, in the order of their numbers.
 template <typename TriangleMesh, typename NT>
 void report_cones_of_metric(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vector<std::uint32_t>& cones,
                             const Conformal_conditions<NT>& conditions, const Conformal_metric<NT>& metric,
