@@ -23,7 +23,6 @@
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
-#include <CGAL/Conformal_equivalence/internal/Overlay/projective_cell.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/sphere_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
