@@ -11,6 +11,7 @@
 #include "include/test_meshes.h"
 
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/conformal_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
@@ -540,8 +541,17 @@ BOOST_AUTO_TEST_CASE(gradient_and_hessian_are_the_derivatives)
         slope += (target[v] - energy.angle_sums()[v]) / 2 * d[v]; // (9)
         BOOST_CHECK_SMALL(double(Real(-(more[v] - less[v]) / (4 * step) - hessian[v])), 1e-20); // (10)
       }
-      const Real difference = (energy.value(moved(u, d, step), target) - energy.value(moved(u, d, Real(-step)), target)) / (2 * step);
+      using namespace CGAL::Conformal_equivalence;
+      const Real difference = (conformal_energy(t, moved(u, d, step), target) - conformal_energy(t, moved(u, d, Real(-step)), target)) / (2 * step);
       BOOST_CHECK_SMALL(double(Real(difference - slope)), 1e-20);
+
+      // by the functions at index level
+      const std::vector<Real> gradient = conformal_energy_gradient(t, u, target);
+      Real product(0);
+      for(Index v = 0; v < u.size(); ++v)
+        product += gradient[v] * d[v];
+      BOOST_CHECK_SMALL(double(Real(difference - product)), 1e-20);
+      BOOST_CHECK(conformal_energy_hessian_product(t, u, d) == hessian);
     }
   BOOST_TEST_MESSAGE(whole << " metrics and " << broken << " with broken triangles");
   BOOST_CHECK(whole >= 8 && broken >= 8);
@@ -588,7 +598,7 @@ BOOST_AUTO_TEST_CASE(energy_is_convex_and_does_not_see_the_scale)
       for(int i = 0; i <= n; ++i)
       {
         const std::vector<Real> x = moved(u, d, Real(Real(i) / n));
-        value.push_back(energy.value(x, target));
+        value.push_back(CGAL::Conformal_equivalence::conformal_energy(t, x, target));
         energy.evaluate(x);
         crossings += i > 0 && energy.broken_faces().size() != last ? 1 : 0;
         last = energy.broken_faces().size();
@@ -609,7 +619,7 @@ BOOST_AUTO_TEST_CASE(energy_is_convex_and_does_not_see_the_scale)
         excess += t.is_isolated_vertex(w) ? 0 : target[w] / 2;
       excess -= CEi::Number_constants<Real>::pi() * t.number_of_faces() / 2;
       const std::vector<Real> shifted = moved(u, std::vector<Real>(u.size(), Real(1)), Real(7));
-      BOOST_CHECK_SMALL(double(Real(energy.value(shifted, target) - value[0] - 7 * excess)), 1e-40);
+      BOOST_CHECK_SMALL(double(Real(CGAL::Conformal_equivalence::conformal_energy(t, shifted, target) - value[0] - 7 * excess)), 1e-40);
     }
   BOOST_TEST_MESSAGE(crossings << " times a triangle broke or healed between two points");
   BOOST_CHECK_GT(crossings, 50);
@@ -672,8 +682,8 @@ void check_against_wide(double unit)
     for(unsigned seed = 0; seed < 4; ++seed)
     {
       const std::vector<double> u = some_u(t, seed), target = testing::random_numbers(u.size(), 6, 2);
-      const Real exact = Energy(t).value(as<Real>(u), as<Real>(target));
-      const NT got = CEi::Conformal_energy<NT, double>(t).value(as<NT>(u), as<NT>(target));
+      const Real exact = CGAL::Conformal_equivalence::conformal_energy(t, as<Real>(u), as<Real>(target));
+      const NT got = CGAL::Conformal_equivalence::conformal_energy(t, as<NT>(u), as<NT>(target));
       // each term, of size pi (|lambda| + |u|), with a few roundings
       double size = 0;
       for(Index f = 0; f < t.number_of_faces(); ++f)

@@ -13,7 +13,7 @@
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
 #include <CGAL/Conformal_equivalence/internal/IO/corner_values.h>
-#include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/IO/Text_buffer.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 

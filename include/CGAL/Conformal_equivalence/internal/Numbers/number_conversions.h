@@ -1,7 +1,7 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Conversions of numbers, as function objects.
+// Conversions of numbers, as function objects, and what number types are like.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NUMBERS_NUMBER_CONVERSIONS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NUMBERS_NUMBER_CONVERSIONS_H
@@ -36,6 +36,29 @@ template <typename NT>
 constexpr bool has_range_of_double()
 {
   return std::numeric_limits<NT>::max_exponent <= std::numeric_limits<double>::max_exponent;
+}
+
+// The bits of the significand of NT; found by trial where the type does not tell (precision chosen at run time).
+template <typename NT>
+int precision_in_bits(const NT& prototype)
+{
+  if constexpr(std::numeric_limits<NT>::is_specialized)
+    return std::numeric_limits<NT>::digits;
+  else
+  {
+    NT one(prototype), ulp(prototype), sum(prototype);
+    one = 1;
+    ulp = 1;
+    int bits = 0;
+    do
+    {
+      ++bits;
+      ulp /= 2;
+      sum = one + ulp;
+    }
+    while(sum != one);
+    return bits;
+  }
 }
 
 } // namespace internal

@@ -1,7 +1,7 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The energy E(u) of a triangulated surface, its gradient and its Hessian
+// The gradient and the Hessian of the energy E(u) of a triangulated surface
 // (sections 2.1 and 3.1, equations (7) to (10), of Springborn, Schroeder and
 // Pinkall, 2008), on all of R^n.
 //
@@ -10,13 +10,12 @@
 //   (Hess E . d)_i = 1/4 sum over edges ij of w_ij (d_i - d_j),  w_ij = cot + cot
 //
 // E is C^1 and convex; where a triangle inequality fails, its angles are pi, 0, 0
-// and its cotangents count as 0.
+// and its cotangents count as 0. Its value is found in conformal_energy.h.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ENERGY_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ENERGY_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <algorithm>
@@ -30,24 +29,6 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-// f of one triangle, equation (8): `lambda[k]` = 2 log of the length opposite to `angle[k]`.
-template <typename NT>
-NT triangle_energy(const std::array<NT, 3>& lambda, const std::array<NT, 3>& angle)
-{
-  NT result(0);
-  for(int k = 0; k < 3; ++k)
-    result += angle[k] * lambda[k] / 2 + Lobachevsky(angle[k]);
-  return result;
-}
-
-// f as a function of the logarithmic lengths alone.
-template <typename NT>
-NT triangle_energy(const std::array<NT, 3>& lambda)
-{
-  using std::exp;
-  return triangle_energy(lambda, triangle_angles<NT>(exp(lambda[0] / 2), exp(lambda[1] / 2), exp(lambda[2] / 2)).angle);
-}
 
 // The angles and cotangents of the metric l~ = e^{(u_i + u_j)/2} l at one u.
 template <typename NT, typename Length = NT>
@@ -144,30 +125,6 @@ public:
   NT scaled_length(Index h) const
   {
     return scale_[t_.origin(h)] * length_[t_.edge(h)] * scale_[t_.target(h)];
-  }
-
-  // E(u), equation (7). `target[v]` is Theta^; `evaluate(u)` need not be called.
-  NT value(const std::vector<NT>& u, const std::vector<NT>& target) const
-  {
-    using std::log;
-    const NT pi = Number_constants<NT>::pi();
-    NT sum(0);
-    for(Index f = 0; f < t_.number_of_faces(); ++f)
-    {
-      std::array<NT, 3> lambda;
-      NT u_sum(0);
-      for(Index k = 0; k < 3; ++k)
-      {
-        const Index h = 3 * f + k;
-        lambda[k] = 2 * log(length_[t_.edge(h)]) + u[t_.origin(h)] + u[t_.target(h)];
-        u_sum += u[t_.origin(h)];
-      }
-      sum += triangle_energy(lambda) - pi / 2 * u_sum;
-    }
-    for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      if(!t_.is_isolated_vertex(v))
-        sum += target[v] * u[v] / 2;
-    return sum;
   }
 
   // Hess E . d at the u last evaluated, equation (10).

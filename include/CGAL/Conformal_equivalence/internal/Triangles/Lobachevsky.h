@@ -4,6 +4,11 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_LOBACHEVSKY_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_LOBACHEVSKY_H
 
+#include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
+
+#include <gmp.h>
+#include <mpfr.h>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -31,82 +36,22 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-namespace fixed_point {
-
-// Numbers in words of 32 bits: the integer part, then the fraction.
-typedef std::vector<std::uint32_t> Fixed_point;
-
-inline void divide(Fixed_point& x, std::uint32_t d)
+// pi / 2 in words of 32 bits, the integer part first, truncated.
+inline std::vector<std::uint32_t> half_pi_in_words(std::size_t size)
 {
-  std::uint64_t remainder = 0;
-  for(std::uint32_t& word : x)
-  {
-    const std::uint64_t r = (remainder << 32) | word;
-    word = static_cast<std::uint32_t>(r / d);
-    remainder = r % d;
-  }
-}
-
-// x += y or x -= y
-inline void accumulate(Fixed_point& x, const Fixed_point& y, bool subtract)
-{
-  std::uint64_t carry = subtract ? 1 : 0; // x - y = x + ~y + 1
-  for(std::size_t i = x.size(); i-- > 0;)
-  {
-    carry += static_cast<std::uint64_t>(x[i]) + (subtract ? static_cast<std::uint32_t>(~y[i]) : y[i]);
-    x[i] = static_cast<std::uint32_t>(carry);
-    carry >>= 32;
-  }
-}
-
-// sum += sign * factor * arctan(1 / n)
-inline void accumulate_arctangent(Fixed_point& sum, std::uint32_t factor, std::uint32_t n, bool subtract)
-{
-  Fixed_point power(sum.size(), 0);
-  power[0] = factor;
-  divide(power, n);
-  // stops when the power is zero: 32 bits a word, at least 4.6 bits a term
-  for(std::uint32_t k = 0; k < 7 * sum.size() + 2; ++k)
-  {
-    Fixed_point term = power;
-    divide(term, 2 * k + 1);
-    accumulate(sum, term, subtract != (k % 2 == 1));
-    divide(power, n * n);
-  }
-}
-
-// pi / 2 to about 32 * (size - 1) - 16 bits after the point, by Machin's formula
-inline Fixed_point half_pi_in_words(std::size_t size)
-{
-  Fixed_point sum(size, 0);
-  accumulate_arctangent(sum, 8, 5, false);
-  accumulate_arctangent(sum, 2, 239, true);
-  return sum;
-}
-
-} // namespace fixed_point
-
-// The bits of the significand of NT; found by trial where the type does not tell (precision chosen at run time).
-template <typename NT>
-int precision_in_bits(const NT& prototype)
-{
-  if constexpr(std::numeric_limits<NT>::is_specialized)
-    return std::numeric_limits<NT>::digits;
-  else
-  {
-    NT one(prototype), ulp(prototype), sum(prototype);
-    one = 1;
-    ulp = 1;
-    int bits = 0;
-    do
-    {
-      ++bits;
-      ulp /= 2;
-      sum = one + ulp;
-    }
-    while(sum != one);
-    return bits;
-  }
+  const mpfr_prec_t bits = 32 * static_cast<mpfr_prec_t>(size);
+  mpfr_t pi;
+  mpz_t integer; // pi / 2 times 2^(32 (size - 1))
+  mpfr_init2(pi, bits + 64);
+  mpz_init(integer);
+  mpfr_const_pi(pi, MPFR_RNDN);
+  mpfr_mul_2si(pi, pi, static_cast<long>(bits) - 33, MPFR_RNDN);
+  mpfr_get_z(integer, pi, MPFR_RNDZ);
+  std::vector<std::uint32_t> words(size, 0);
+  mpz_export(words.data(), nullptr, 1, sizeof(std::uint32_t), 0, 0, integer); // the first word is 1: there are as many as there should be
+  mpz_clear(integer);
+  mpfr_clear(pi);
+  return words;
 }
 
 // What the two series need, at the precision of a prototype: a number whose value does not matter.
@@ -136,13 +81,13 @@ private:
   {
     const std::size_t part = p < 84 ? 1 : static_cast<std::size_t>((p - 20) / 32),
                       rest = static_cast<std::size_t>(p / 32 + 2);
-    const fixed_point::Fixed_point words = fixed_point::half_pi_in_words(2 * part + rest + 2);
+    const std::vector<std::uint32_t> words = half_pi_in_words(2 * part + rest + 2);
     set_to_words(half_pi[0], words, 0, part + 1);
     set_to_words(half_pi[1], words, part + 1, 2 * part + 1);
     set_to_words(half_pi[2], words, 2 * part + 1, 2 * part + 1 + rest);
   }
 
-  static void set_to_words(NT& x, const fixed_point::Fixed_point& words, std::size_t begin, std::size_t end)
+  static void set_to_words(NT& x, const std::vector<std::uint32_t>& words, std::size_t begin, std::size_t end)
   {
     using std::ldexp;
     x = 0;
