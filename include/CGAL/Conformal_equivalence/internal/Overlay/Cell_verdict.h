@@ -1,7 +1,7 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The verdict on the faces of a common refinement, its *cells*: one for the plane, the disk and the sphere, which bring their own predicates. A
+// The verdict on the faces of a common refinement, its *cells*, by whatever predicates decide in the plane or elsewhere. A
 // cell is positive if it is counterclockwise and strictly convex. It is called *flipped* if it is not positive for the coordinates as they were
 // computed, and *rounded* if it is, but no longer for the coordinates rounded to the number type of the result.
 
@@ -9,8 +9,6 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_OVERLAY_CELL_VERDICT_H
 
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
-#include <CGAL/Conformal_equivalence/Flattening_report.h>
-#include <CGAL/Conformal_equivalence/Imported_mesh.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -42,16 +40,6 @@ void put_verdict(Cell_verdict verdict, Common_refinement<NT>& refinement)
   refinement.rounded_faces = std::move(verdict.rounded);
 }
 
-// Judges all cells of a refinement, by two predicates on their numbers, and renews the verdict that it holds.
-template <typename NT, typename As_rounded, typename As_computed>
-void judge_cells(Common_refinement<NT>& refinement, As_rounded is_positive_as_rounded, As_computed is_positive_as_computed)
-{
-  Cell_verdict verdict;
-  for(std::uint32_t f = 0; f < refinement.number_of_faces(); ++f)
-    verdict.judge(f, [&] { return is_positive_as_rounded(f); }, [&] { return is_positive_as_computed(f); });
-  put_verdict(std::move(verdict), refinement);
-}
-
 // The faces of the input that cells are parts of, each once, in increasing order.
 template <typename NT>
 std::vector<std::uint32_t> input_faces(const Common_refinement<NT>& refinement, const std::vector<std::uint32_t>& cells)
@@ -71,29 +59,6 @@ std::vector<std::uint32_t> input_faces_lost(const Common_refinement<NT>& refinem
   std::vector<std::uint32_t> cells = refinement.flipped_faces;
   cells.insert(cells.end(), refinement.rounded_faces.begin(), refinement.rounded_faces.end());
   return input_faces(refinement, cells);
-}
-
-// Tells a report of flipped cells, if there are any, as `NOT_INJECTIVE`; names the face of the mesh for every one of them.
-template <typename TriangleMesh, typename NT>
-void report_flipped_cells(const Imported_mesh<TriangleMesh, NT>& mesh, const Common_refinement<NT>& refinement,
-                          Flattening_report<TriangleMesh>& report)
-{
-  if(refinement.flipped_faces.empty())
-    return;
-  std::vector<std::uint32_t> faces;
-  for(std::uint32_t f : refinement.flipped_faces)
-    faces.push_back(refinement.input_face[f]);
-  report.status = Status::NOT_INJECTIVE;
-  name_elements(mesh, {}, {}, faces, report);
-}
-
-// Tells a report of the faces of the mesh with rounded cells.
-template <typename TriangleMesh, typename NT>
-void report_rounded_cells(const Imported_mesh<TriangleMesh, NT>& mesh, const Common_refinement<NT>& refinement,
-                          Flattening_report<TriangleMesh>& report)
-{
-  for(std::uint32_t f : input_faces(refinement, refinement.rounded_faces))
-    report.rounded_faces.push_back(mesh.face(f));
 }
 
 } // namespace internal
