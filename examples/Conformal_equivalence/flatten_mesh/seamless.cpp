@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "../include/flatten_mesh/doors.h"
+#include "../include/flatten_mesh/door_parameters.h"
 #include "../include/flatten_mesh/seamless.h"
 #include "../include/flatten_mesh/Stopwatch.h"
 
+#include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
 
 #include <algorithm>
@@ -31,14 +33,22 @@ void keep_lattice_coordinates(unsigned int symmetry, Result& result)
 
 Report flatten_seamlessly(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
 {
+  Progress_visitor visitor(progress);
   const Stopwatch watch;
-  const Report report = options.places_cones ? flatten_seamlessly_with_placed_cones(options, results, progress)
-                                             : flatten_seamlessly_with_given_cones(options, conditions, results, progress);
+  Result& given = results.given;
+  const auto tiling = tiling_parameters(options, results, visitor);
+  const Report report = options.places_cones
+    ? CE::compute_seamless_parameterization(given.mesh, given.uv, tiling)
+    : CE::compute_seamless_parameterization(given.mesh, given.uv,
+                                            tiling.cone_angle_map(conditions.cone_angle)
+                                                  .border_angle_map(conditions.border_angle)
+                                                  .vertex_is_constrained_map(conditions.is_constrained)
+                                                  .prescribed_log_scale_factor_map(conditions.u));
   const CE::Statistics::Seconds& s = report.statistics.seconds;
   if(options.places_cones) // what is counted nowhere else
     results.placing_seconds = (std::max)(0., watch.seconds() - (s.import + s.solve + s.cut + s.layout + s.verify));
   if(report && options.lattice_coordinates)
-    keep_lattice_coordinates(options.quanta_of_turn, results.given);
+    keep_lattice_coordinates(options.quanta_of_turn, given);
   return report;
 }
 

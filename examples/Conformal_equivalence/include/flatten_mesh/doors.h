@@ -30,8 +30,6 @@ Report place_cones(const Options& options, const Conditions& conditions, Results
 
 // A seamless layout, with cones that are given or to be placed.
 Report flatten_seamlessly(const Options& options, const Conditions& conditions, Results& results, Progress& progress);
-Report flatten_seamlessly_with_given_cones(const Options& options, const Conditions& conditions, Results& results, Progress& progress);
-Report flatten_seamlessly_with_placed_cones(const Options& options, Results& results, Progress& progress);
 
 // The map to the sphere or to the disk, in double or with --precision.
 Report map_to_sphere(const Options& options, Results& results, Progress& progress);
