@@ -162,12 +162,10 @@ public:
   ///
   /// \cgalNamedParamsBegin
   ///   \cgalParamNBegin{seam_is_border}
-  ///     \cgalParamDescription{whether the metric is solved on the surface that is cut open, with the seam as border;
-  ///       conditions at a vertex on the seam then hold for all its copies}
+  ///     \cgalParamDescription{whether the metric is solved on the surface that is cut open, with the seam as border; conditions at a vertex on the seam then hold for all its copies}
   ///     \cgalParamType{`bool`}
   ///     \cgalParamDefault{`false`}
-  ///     \cgalParamExtra{What is then written at a vertex on the seam is what was found for one of its copies.
-  ///       `Conformal_equivalence::flatten()`, called with the `Seam_mesh`, takes and returns values for each copy.}
+  ///     \cgalParamExtra{What is then written at a vertex on the seam is what was found for one of its copies. `Conformal_equivalence::flatten()`, called with the `Seam_mesh`, takes and returns values for each copy.}
   ///   \cgalParamNEnd
   /// \cgalNamedParamsEnd
   template <typename CGAL_NP_TEMPLATE_PARAMETERS>
