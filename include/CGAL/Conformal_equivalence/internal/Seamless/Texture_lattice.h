@@ -1,7 +1,7 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The lattices that have rotations by 2 pi / n for their symmetries, and exact arithmetic with their points.
+// The lattices that have rotations by 2 pi / n for their symmetries.
 //
 // For n = 2 and 4 these are the Gaussian integers, Z + Z theta with theta = i; for n = 3 and 6 the Eisenstein integers, theta = e^{i pi / 3}. There
 // are no others. In both
@@ -14,12 +14,9 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TEXTURE_LATTICE_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TEXTURE_LATTICE_H
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstdint>
 
 namespace CGAL {
 namespace Conformal_equivalence {
@@ -81,59 +78,6 @@ public:
 
 private:
   int n_;
-};
-
-// a + b theta with integers of any size: a ring with division with remainder, as both kinds are Euclidean.
-template <int Trace>
-struct Lattice_number
-{
-  typedef boost::multiprecision::cpp_int Integer;
-
-  Integer a = 0, b = 0;
-
-  Lattice_number() = default;
-  Lattice_number(Integer x, Integer y = 0) : a(std::move(x)), b(std::move(y)) {}
-
-  // theta to the power k >= 0
-  static Lattice_number unit(int k)
-  {
-    Lattice_number result(1);
-    for(; k > 0; --k)
-      result = result * Lattice_number(0, 1);
-    return result;
-  }
-
-  bool is_zero() const { return a == 0 && b == 0; }
-  Integer norm() const { return a * a + Trace * (a * b) + b * b; }
-  Lattice_number conjugate() const { return {Integer(a + Trace * b), Integer(-b)}; }
-
-  friend Lattice_number operator+(const Lattice_number& x, const Lattice_number& y) { return {Integer(x.a + y.a), Integer(x.b + y.b)}; }
-  friend Lattice_number operator-(const Lattice_number& x, const Lattice_number& y) { return {Integer(x.a - y.a), Integer(x.b - y.b)}; }
-  friend Lattice_number operator*(const Lattice_number& x, const Lattice_number& y)
-  {
-    const Integer bd = x.b * y.b;
-    return {Integer(x.a * y.a - bd), Integer(x.a * y.b + x.b * y.a + Trace * bd)};
-  }
-  friend bool operator==(const Lattice_number& x, const Lattice_number& y) { return x.a == y.a && x.b == y.b; }
-
-  // The quotient, rounded so that the norm of the remainder is at most 3/4 of that of the divisor.
-  friend Lattice_number operator/(const Lattice_number& x, const Lattice_number& y)
-  {
-    const Lattice_number numerator = x * y.conjugate();
-    const Integer d = y.norm();
-    return {rounded_quotient(numerator.a, d), rounded_quotient(numerator.b, d)};
-  }
-
-private:
-  // \pre d > 0
-  static Integer rounded_quotient(const Integer& x, const Integer& d)
-  {
-    const Integer doubled = 2 * x + d, divisor = 2 * d;
-    Integer result = doubled / divisor; // towards zero
-    if(result * divisor > doubled)
-      --result;
-    return result;
-  }
 };
 
 } // namespace internal

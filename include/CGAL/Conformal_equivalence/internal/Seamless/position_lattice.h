@@ -17,11 +17,14 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_POSITION_LATTICE_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_POSITION_LATTICE_H
 
-#include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Integer.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Lattice_number.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Meta_polygon.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -189,11 +192,12 @@ Position_lattice position_lattice(const Meta_polygon& polygon, std::size_t numbe
   std::size_t number_of_equations = 0;
   Sparse_columns<Trace> equations = position_equations<Trace>(polygon, number_of_cones, lattice, number_of_equations);
   const Sparse_columns<Trace> solutions = integral_null_space(std::move(equations), number_of_equations);
-  const std::int64_t most = std::int64_t(1) << 40;
-  const auto narrow = [&](const typename Lattice_number<Trace>::Integer& x)
+  const double most = 1099511627776.; // 2^40
+  const auto narrow = [&](const Integer& x)
   {
-    result.fits = result.fits && x < most && -most < x;
-    return result.fits ? std::int64_t(x) : 0;
+    const double value = double(x);
+    result.fits = result.fits && std::abs(value) < most;
+    return result.fits ? std::int64_t(value) : 0;
   };
   for(const auto& column : solutions.columns)
   {
