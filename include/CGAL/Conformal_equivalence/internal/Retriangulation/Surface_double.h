@@ -97,8 +97,8 @@ public:
     return result;
   }
 
-  // The border edges of the surface that are no edges of the double any more, which these flips have made `flipped`: the border has lost their lengths.
-  // (All of them, should the crossings of both triangulations be too many to be counted.)
+  // The border edges of the surface that are no edges of the double any more, which these flips have made `flipped`: the border has lost their
+  // lengths. (All of them, should the crossings of both triangulations be too many to be counted.)
   std::vector<Index> lost_border_edges(const Intrinsic_triangulation<NT>& t, const Intrinsic_triangulation<NT>& flipped,
                                        const std::vector<Index>& flips) const
   {
