@@ -29,6 +29,7 @@
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/ideal_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Inscribed_mapping.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Moebius_centering.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>

@@ -24,6 +24,7 @@
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/ideal_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Inscribed_mapping.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Moebius_centering.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/sphere_predicates.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -31,7 +32,9 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -186,12 +189,11 @@ private:
     const auto at = [&](Index v)
     {
       const Light_vector<double> p = rounded(vectors[v]);
-      return Eigen::Vector3d(p[0] / p[3], p[1] / p[3], p[2] / p[3]);
+      return std::array<double, 3>{{ p[0] / p[3], p[1] / p[3], p[2] / p[3] }};
     };
-    const Eigen::Quaterniond up = Eigen::Quaterniond::FromTwoVectors(at(used[0]), Eigen::Vector3d(0, 0, 1));
-    transform(rotation_matrix<Wide>(up.w(), up.x(), up.y(), up.z()), vectors);
-    const Eigen::Vector3d p = at(used[1]);
-    const double half = -std::atan2(p.y(), p.x()) / 2;
+    transform(rotation_to_pole<Wide>(at(used[0])), vectors);
+    const std::array<double, 3> p = at(used[1]);
+    const double half = -std::atan2(p[1], p[0]) / 2;
     transform(rotation_matrix<Wide>(std::cos(half), 0, 0, std::sin(half)), vectors);
   }
 

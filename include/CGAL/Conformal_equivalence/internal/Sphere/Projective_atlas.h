@@ -13,7 +13,7 @@
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
-#include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron_finder.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/projective_cell.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/sphere_predicates.h>
 

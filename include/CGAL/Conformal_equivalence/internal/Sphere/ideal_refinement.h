@@ -12,7 +12,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
-#include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron_finder.h>
+#include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/normal_coordinates.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Overlay.h>

@@ -19,13 +19,11 @@
 
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -147,104 +145,20 @@ void transform(const Lorentz_matrix<Number>& m, std::vector<Light_vector<Number>
     v = m * v;
 }
 
-// The Moebius transformation after which the weighted barycentre of the points is the origin (B. Springborn, A unique representation of polyhedral types.
-// Centering via Moebius transformations, 2005): it takes to the origin the point x of hyperbolic space for which the sum of all w log(-<x, v>),
-// the distances from horospheres, is least. That is convex along geodesics; with points p of the sphere, its gradient at the
-// origin is -sum w p, its second derivative sum w (1 - p p^T). There is one iff no point has half of the weight. If all points have a mirror image with
-// respect to the plane y = 0, which need not be given, the transformation keeps that plane.
-class Moebius_centering
+// The rotation that takes a point of the sphere, of any length but 0, to the pole (0, 0, 1): about the axis at right angles to both. Where the point is
+// so near to the other pole that the cosine has lost the angle, half of what is missing to half a turn is its distance from the axis of the poles.
+template <typename Number>
+Lorentz_matrix<Number> rotation_to_pole(const std::array<double, 3>& point)
 {
-public:
-  // `weight`: by point, 0 for what is no point; if `is_planar`, only transformations that keep the plane y = 0 are allowed, and y does not count: the mirror images are not given
-  Moebius_centering(std::vector<double> weight, bool is_planar) : weight_(std::move(weight)), is_planar_(is_planar)
+  const Eigen::Vector3d p = Eigen::Vector3d(point[0], point[1], point[2]).normalized();
+  if(p.z() >= -1 + 1e-12)
   {
-    double sum = 0;
-    for(double w : weight_)
-      sum += w;
-    for(double& w : weight_)
-      w /= sum;
+    const double s = std::sqrt((1 + p.z()) * 2), inverse = 1 / s;
+    return rotation_matrix<Number>(s * 0.5, p.y() * inverse, -p.x() * inverse, 0);
   }
-
-  // Transforms the points. Returns whether there is such a transformation.
-  template <typename Number>
-  bool operator()(std::vector<Light_vector<Number> >& points) const
-  {
-    const double centred = 1e-14, nearly_centred = 1e-12;
-    for(std::size_t i = 0; i < points.size(); ++i)
-      if(!(weight_[i] < 0.5) && (!is_planar_ || points[i][1] == 0))
-        return false;
-    double last = 2;
-    for(int round = 0; round < 5; ++round) // more than one for what is lost when points are rounded
-    {
-      std::vector<Light_vector<double> > p;
-      p.reserve(points.size());
-      for(const Light_vector<Number>& v : points)
-        p.push_back(rounded(v));
-      const double size = moments(p).first.norm();
-      if(size <= centred || (size <= nearly_centred && size > last / 2))
-        return true;
-      last = size;
-      transform(find<Number>(std::move(p)), points);
-    }
-    return last <= nearly_centred;
-  }
-
-private:
-  typedef std::pair<Eigen::Vector3d, Eigen::Matrix3d> Moments;
-
-  // The weighted sums of p and of 1 - p p^T.
-  Moments moments(const std::vector<Light_vector<double> >& points) const
-  {
-    Moments result(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero());
-    for(std::size_t i = 0; i < points.size(); ++i)
-    {
-      if(!(weight_[i] > 0))
-        continue;
-      const Light_vector<double>& v = points[i];
-      const Eigen::Vector3d p(v[0] / v[3], is_planar_ ? 0 : v[1] / v[3], v[2] / v[3]);
-      result.first += weight_[i] * p;
-      result.second += weight_[i] * (Eigen::Matrix3d::Identity() - p * p.transpose());
-    }
-    return result;
-  }
-
-  // Newton's method; steps are bounded, and halved where the derivative at their end says that they were too long.
-  template <typename Number>
-  Lorentz_matrix<Number> find(std::vector<Light_vector<double> > points) const
-  {
-    Lorentz_matrix<Number> result = Lorentz_matrix<Number>::identity();
-    Moments here = moments(points);
-    for(int i = 0; i < 200 && here.first.norm() > 1e-15; ++i)
-    {
-      Eigen::Vector3d d = here.second.ldlt().solve(here.first);
-      if(!(d.dot(here.first) > 0))
-        d = here.first;
-      d *= (std::min)(1., 1.5 / d.norm());
-      for(int halving = 0; ; ++halving)
-      {
-        const std::array<double, 3> step = {{ d[0], d[1], d[2] }};
-        std::vector<Light_vector<double> > moved = points;
-        transform(boost_matrix<double>(step), moved);
-        const Moments there = moments(moved);
-        if(there.first.dot(d) < -0.5 * here.first.dot(d) && halving < 50)
-        {
-          d /= 2;
-          continue;
-        }
-        if(!(there.first.norm() < here.first.norm()) && here.first.norm() < 1e-13)
-          return result;
-        result = boost_matrix<Number>(step) * result;
-        points.swap(moved);
-        here = there;
-        break;
-      }
-    }
-    return result;
-  }
-
-  std::vector<double> weight_;
-  bool is_planar_;
-};
+  const double size = std::hypot(p.x(), p.y()), w = size / 2, rest = std::sqrt(1 - w * w);
+  return size > 0 ? rotation_matrix<Number>(w, p.y() / size * rest, -p.x() / size * rest, 0) : rotation_matrix<Number>(0, 1, 0, 0);
+}
 
 } // namespace internal
 } // namespace Conformal_equivalence
