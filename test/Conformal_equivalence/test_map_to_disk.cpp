@@ -39,7 +39,6 @@ namespace CE = CGAL::Conformal_equivalence;
 namespace CEi = CGAL::Conformal_equivalence::internal;
 namespace params = CGAL::parameters;
 using namespace testing;
-using CE::Disk_frame;
 using CE::Moebius_weights;
 using CE::Retriangulation;
 using CE::Status;

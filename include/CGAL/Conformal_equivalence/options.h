@@ -58,6 +58,14 @@ enum class Seamless_coordinates
 };
 
 /// \ingroup PkgConformalEquivalenceEnums
+/// What has its barycentre in the centre of the sphere, or of the disk, when a Moebius transformation is chosen.
+enum class Moebius_weights
+{
+  VERTICES, ///< the vertices
+  AREAS     ///< the vertices, each with a third of the area of its triangles on the surface given
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
 /// What a visitor is told that begins.
 enum class Stage
 {

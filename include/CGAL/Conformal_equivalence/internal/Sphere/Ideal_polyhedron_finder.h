@@ -33,6 +33,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
+#include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
@@ -40,10 +41,7 @@
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Punctured_surface.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Stereographic_placement.h>
-#include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
-
-#include <boost/property_map/function_property_map.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -57,20 +55,19 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-template <typename NT, typename NamedParameters>
+template <typename NT, typename SolverTraits>
 class Ideal_polyhedron_finder
 {
   typedef std::uint32_t Index;
   typedef Intrinsic_triangulation<NT> Triangulation;
   typedef Conformal_metric<NT> Metric;
   typedef Ideal_polyhedron<NT> Polyhedron;
-  typedef typename Polyhedron::Wide Wide;
-  typedef typename internal_np::Lookup_named_param_def<internal_np::sparse_linear_solver_t, NamedParameters,
-                                                       Default_solver_traits>::type Solver_traits;
 
 public:
-  // `np`: those of the solver
-  Ideal_polyhedron_finder(const Triangulation& t, const NamedParameters& np) : given_(t), np_(np) {}
+  // The triangulation is kept as a reference.
+  Ideal_polyhedron_finder(const Triangulation& t, const Solver_options& options, const SolverTraits& traits)
+    : given_(t), options_(options), traits_(traits)
+  {}
 
   // On the triangulation as it is.
   Polyhedron on_fixed_triangulation(Index apex, const Symmetry_axis& axis) const
@@ -82,14 +79,14 @@ public:
     const Punctured_surface<NT> rest(given_, apex);
     if(!rest.is_disk())
       return refused(std::move(result), Status::SINGULAR_PROBLEM);
-    const Metric metric = compute_conformal_metric(
-      rest.triangulation, conditions(result, rest.triangulation),
-      Conformal_equivalence::combine_named_parameters(solver_parameters(), parameters::retriangulation(Retriangulation::NEVER)));
+    Solver_options options = precise_options();
+    options.retriangulation = Retriangulation::NEVER;
+    const Metric metric = solve(rest.triangulation, conditions(result, rest.triangulation), options);
     take_over(metric, result);
     for(Index f : metric.faces)
       result.faces.push_back(rest.original_face[f]);
     if(is_success(result.status))
-      Stereographic_placement<NT>(metric)(axis, result);
+      place(metric, axis, result);
     return result;
   }
 
@@ -100,7 +97,10 @@ public:
     result.apex = apex;
     result.triangulation = std::move(start);
     result.flips = std::move(flips);
-    std::vector<double> u;
+    Solver_options options = precise_options();
+    options.retriangulation = Retriangulation::WHEN_NEEDED;
+    options.border_edges = Border_edges::KEPT;
+    options.has_come_from_flips = true;
     for(int round = 0; round < most_exchanges_; ++round)
     {
       Apex_star<NT> star(result);
@@ -110,7 +110,7 @@ public:
       const Punctured_surface<NT> rest(result.triangulation, apex);
       if(!rest.is_disk())
         return refused(std::move(result), Status::SINGULAR_PROBLEM);
-      const Metric metric = solve(rest.triangulation, conditions(result, rest.triangulation), u);
+      const Metric metric = solve(rest.triangulation, conditions(result, rest.triangulation), options);
       take_over(metric, result);
       if(!is_success(metric.status) && metric.status != Status::DEGENERATE_METRIC)
         return result;
@@ -118,13 +118,11 @@ public:
       if(!star.exchange(rest, metric))
       {
         if(is_success(result.status))
-          Stereographic_placement<NT>(metric)(axis, result);
+          place(metric, axis, result);
         return result;
       }
       ++result.number_of_exchanges;
-      u.resize(metric.log_scale_factors.size());
-      for(std::size_t v = 0; v < u.size(); ++v)
-        u[v] = static_cast<double>(metric.log_scale_factors[v]);
+      options.initial_log_scale_factors = rounded(metric.log_scale_factors);
     }
     return refused(std::move(result), Status::ITERATIONS_EXHAUSTED);
   }
@@ -138,15 +136,21 @@ private:
   }
 
   // Points are to be right relative to the smallest chords; what the user asks for is judged at the end.
-  auto solver_parameters() const
+  Solver_options precise_options() const
   {
-    return Conformal_equivalence::combine_named_parameters(np_, parameters::gradient_tolerance(
-      (std::min)(wanted_tolerance(), std::is_same<NT, double>::value ? 1e-24 : 0.)));
+    const double least = std::is_same<NT, double>::value ? 1e-24 : 0; // the steps end where pairs of `double` do; other numbers say themselves where
+    Solver_options result = options_;
+    result.initial_log_scale_factors.clear();
+    result.gradient_tolerance = (std::min)(options_.gradient_tolerance, least);
+    return result;
   }
 
-  double wanted_tolerance() const
+  static std::vector<double> rounded(const std::vector<NT>& numbers)
   {
-    return parameters::choose_parameter(parameters::get_parameter(np_, internal_np::conformal_gradient_tolerance), 1e-12);
+    std::vector<double> result;
+    for(const NT& x : numbers)
+      result.push_back(static_cast<double>(x));
+    return result;
   }
 
   // The geometric mean of the lengths of the edges at the apex, to a power of two.
@@ -180,19 +184,9 @@ private:
     return result;
   }
 
-  Metric solve(Triangulation rest, const Conformal_conditions<NT>& conditions, const std::vector<double>& u) const
+  Metric solve(Triangulation rest, const Conformal_conditions<NT>& conditions, const Solver_options& options) const
   {
-    using parameters::choose_parameter;
-    using parameters::get_parameter;
-    Conformal_metric_solver<NT, Solver_traits> solver(
-      std::move(rest), choose_parameter<Solver_traits>(get_parameter(np_, internal_np::sparse_linear_solver)));
-    Solver_options options = read_solver_options(solver_parameters(), solver.triangulation().number_of_vertices());
-    options.retriangulation = Retriangulation::WHEN_NEEDED;
-    options.border_edges = Border_edges::KEPT;
-    options.has_come_from_flips = true;
-    if(!u.empty())
-      options.initial_log_scale_factors = u;
-    return std::move(solver).solve(conditions, options);
+    return Conformal_metric_solver<NT, SolverTraits>(std::move(rest), traits_).solve(conditions, options);
   }
 
   void take_over(const Metric& metric, Polyhedron& result) const
@@ -209,18 +203,25 @@ private:
     result.status = metric.status;
     result.amount = metric.amount;
     result.vertices = metric.vertices;
-    if(metric.status == Status::CONVERGED_TO_ROUNDING && metric.statistics.residual <= wanted_tolerance())
+    if(metric.status == Status::CONVERGED_TO_ROUNDING && metric.statistics.residual <= options_.gradient_tolerance)
     {
       result.status = Status::OK;
       result.amount = 0;
     }
   }
 
+  static void place(const Metric& metric, const Symmetry_axis& axis, Polyhedron& result)
+  {
+    Stereographic_placement<NT> placement(metric);
+    placement(axis, result);
+  }
+
   // The link hardly ever changes, and each exchange brings it nearer to the minimum: more rounds than this mean that rounding moves it to and fro.
   static constexpr int most_exchanges_ = 100;
 
   const Triangulation& given_;
-  const NamedParameters& np_;
+  const Solver_options options_;
+  const SolverTraits traits_;
 };
 
 } // namespace internal

@@ -10,9 +10,11 @@
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron_finder.h>
@@ -28,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <new>
 #include <type_traits>
@@ -37,39 +40,9 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 
-/// \ingroup PkgConformalEquivalenceEnums
-/// What has its barycentre in the centre of the sphere, or of the disk, when a Moebius transformation is chosen.
-enum class Moebius_weights
-{
-  VERTICES, ///< the vertices
-  AREAS     ///< the vertices, each with a third of the area of its triangles on the surface given
-};
-
 namespace internal {
 
-template <typename NT>
-std::vector<double> moebius_weights(const Intrinsic_triangulation<NT>& t, Moebius_weights kind)
-{
-  std::vector<double> result(t.number_of_vertices(), 0.);
-  double unit = 0;
-  for(const NT& l : t.lengths())
-    unit = (std::max)(unit, static_cast<double>(l));
-  for(std::uint32_t h = 0; h < t.number_of_halfedges(); ++h)
-  {
-    double& weight = result[t.origin(h)];
-    if(kind == Moebius_weights::VERTICES)
-      weight = 1;
-    else
-    {
-      const Incircle_form<double> triangle(static_cast<double>(t.halfedge_length(t.next(h))) / unit,
-        static_cast<double>(t.halfedge_length(t.previous(h))) / unit, static_cast<double>(t.halfedge_length(h)) / unit);
-      weight += triangle.r * triangle.s;
-    }
-  }
-  return result;
-}
-
-template <typename NT, typename NamedParameters>
+template <typename NT, typename SolverTraits>
 class Inscribed_mapping
 {
   typedef std::uint32_t Index;
@@ -77,16 +50,18 @@ class Inscribed_mapping
   typedef Ideal_polyhedron<NT> Polyhedron;
 
 public:
+  // Normalizes and judges a polyhedron: returns its faces that are not positive, or changes its status.
+  typedef std::function<std::vector<Index>(Polyhedron&)> Accept;
+
   // `surface`: closed, or with one border; `whole`: the same, or its double. Both are kept as references.
-  Inscribed_mapping(const Triangulation& surface, const Triangulation& whole, const NamedParameters& np)
-    : surface_(surface), whole_(whole), np_(np)
+  Inscribed_mapping(const Triangulation& surface, const Triangulation& whole, Solver_options options, SolverTraits traits)
+    : surface_(surface), whole_(whole), options_(std::move(options)), traits_(std::move(traits))
   {}
 
-  // The polyhedron that `accept(polyhedron)`, which normalizes and judges it, accepts: it returns the faces of the polyhedron that are
-  // not positive. On failure its status says why. `apex`: null_index for the best one.
-  template <typename Accept>
-  Polyhedron operator()(Index apex, Retriangulation retriangulation, Accept accept) const
+  // The polyhedron that is accepted. On failure its status says why. `apex`: null_index for the best one.
+  Polyhedron operator()(Index apex, const Accept& accept) const
   {
+    const Retriangulation retriangulation = options_.retriangulation;
     const Stopwatch stopwatch;
     Polyhedron result;
     double discarded = 0;
@@ -132,13 +107,12 @@ private:
 
   // Seen from another vertex, a polyhedron that is not convex may have triangles that are flipped in the plane, and then is not found. So that it does not
   // depend on the vertex given whether edges will be flipped, the best one decides, unless `is_any_good`.
-  template <typename Accept>
-  Polyhedron on_fixed_triangulation(Index apex, bool is_any_good, Accept accept) const
+  Polyhedron on_fixed_triangulation(Index apex, bool is_any_good, const Accept& accept) const
   {
     const std::vector<Index> best = best_apices(surface_, 1);
     if(best.empty() && apex == surface_.null_index)
       return without_apex();
-    const Ideal_polyhedron_finder<NT, NamedParameters> find(surface_, np_);
+    const Ideal_polyhedron_finder<NT, SolverTraits> find(surface_, options_, traits_);
     const auto found = [&](Index a) { return judged(find.on_fixed_triangulation(a, axis(a)), accept); };
     Polyhedron result = best.empty() ? without_apex() : found(best[0]);
     if(apex == surface_.null_index || (!best.empty() && apex == best[0]) || !(is_any_good || is_success(result.status)))
@@ -147,8 +121,7 @@ private:
     return is_success(other.status) || !is_success(result.status) ? other : result;
   }
 
-  template <typename Accept>
-  Polyhedron with_flips(Index apex, Retriangulation retriangulation, Accept accept) const
+  Polyhedron with_flips(Index apex, Retriangulation retriangulation, const Accept& accept) const
   {
     Polyhedron result;
     Triangulation start = whole_;
@@ -160,10 +133,10 @@ private:
       result.status = Status::DEGENERATE_METRIC;
       return result;
     }
-    std::vector<Index> apices = best_apices(is_closed() ? start : surface_, 8);
+    std::vector<Index> apices = best_apices(is_closed() ? start : surface_, most_apices_);
     if(apex != surface_.null_index) // others lead to the same polyhedron, if this one fails
       apices.insert(apices.begin(), apex);
-    const Ideal_polyhedron_finder<NT, NamedParameters> find(whole_, np_);
+    const Ideal_polyhedron_finder<NT, SolverTraits> find(whole_, options_, traits_);
     result = without_apex();
     for(Index a : apices)
     {
@@ -183,8 +156,7 @@ private:
     return result;
   }
 
-  template <typename Accept>
-  static Polyhedron judged(Polyhedron polyhedron, Accept accept)
+  static Polyhedron judged(Polyhedron polyhedron, const Accept& accept)
   {
     if(!is_success(polyhedron.status))
       return polyhedron;
@@ -197,9 +169,13 @@ private:
     return polyhedron;
   }
 
+  // The best one hardly ever fails; where it does, for what rounding makes of crowded vertices, those that are as good soon do not.
+  static constexpr std::size_t most_apices_ = 8;
+
   const Triangulation& surface_;
   const Triangulation& whole_;
-  const NamedParameters& np_;
+  const Solver_options options_;
+  const SolverTraits traits_;
 };
 
 // The stages of a map, one after the other, each only if all went well before: lengths; `is_kind()`, whether it is a surface of the right kind;
@@ -208,8 +184,7 @@ template <typename TriangleMesh, typename NT, typename NamedParameters, typename
 void run_mapping(Imported_mesh<TriangleMesh, NT>& mesh, Flattening_report<TriangleMesh>& report, const NamedParameters& np,
                  Is_kind is_kind, Find find, Judge judge)
 {
-  auto given_visitor = parameters::choose_parameter<Default_visitor>(parameters::get_parameter(np, internal_np::visitor));
-  auto& visitor = unwrap(given_visitor);
+  const Any_visitor visitor = visitor_of(np);
   try
   {
     double seconds = 0;
@@ -243,9 +218,9 @@ std::uint32_t given_apex(const Imported_mesh<TriangleMesh, NT>& mesh, const Name
 }
 
 template <typename NamedParameters>
-Retriangulation given_retriangulation(const NamedParameters& np)
+Moebius_weights given_moebius_weights(const NamedParameters& np)
 {
-  return parameters::choose_parameter(parameters::get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::WHEN_NEEDED);
+  return parameters::choose_parameter(parameters::get_parameter(np, internal_np::conformal_moebius_weights), Moebius_weights::VERTICES);
 }
 
 // Names the faces, or, if these are no faces of the mesh, their vertices.
@@ -261,6 +236,20 @@ void take_over(const Imported_mesh<TriangleMesh, NT>& mesh, const Ideal_polyhedr
     name_elements(mesh, polyhedron.vertices, {}, polyhedron.faces, report);
   else
     name_elements(mesh, with_vertices_of_faces(mesh.triangulation, polyhedron.vertices, polyhedron.triangulation, polyhedron.faces), {}, {}, report);
+}
+
+// The verdict on an image: the faces that are not positive there, and those that are not any more when their points are rounded.
+template <typename TriangleMesh, typename NT>
+void tell_verdict(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vector<std::uint32_t>& flipped, const std::vector<std::uint32_t>& rounded,
+                  Flattening_report<TriangleMesh>& report)
+{
+  if(!flipped.empty())
+  {
+    report.status = Status::NOT_INJECTIVE;
+    name_elements(mesh, {}, {}, flipped, report);
+  }
+  for(std::uint32_t f : rounded)
+    report.rounded_faces.push_back(mesh.face(f));
 }
 
 // u and e^{-u} of weights, by vertex of the mesh.

@@ -54,12 +54,12 @@ public:
       for(const Light_vector<Number>& v : points)
         p.push_back(rounded(v));
       const double size = moments(p).first.norm();
-      if(size <= wanted_size_ || (size <= accepted_size_ && size > last / 2))
+      if(size <= centred_ || (size <= nearly_centred_ && size > last / 2))
         return true;
       last = size;
       transform(find<Number>(std::move(p)), points);
     }
-    return last <= accepted_size_;
+    return last <= nearly_centred_;
   }
 
 private:
@@ -146,8 +146,8 @@ private:
     return x;
   }
 
-  static constexpr double wanted_size_ = 1e-14;   // of the barycentre
-  static constexpr double accepted_size_ = 1e-12; // if another round would not halve it
+  static constexpr double centred_ = 1e-14;   // of the barycentre
+  static constexpr double nearly_centred_ = 1e-12; // if another round would not halve it
   static constexpr int most_rounds_ = 5;          // more than one for what is lost when points are rounded
   static constexpr int most_steps_ = 200;         // some ten are needed, and more where points crowd, as each goes only so far
   static constexpr int most_halvings_ = 50;       // after that, the step is below what `double` can tell

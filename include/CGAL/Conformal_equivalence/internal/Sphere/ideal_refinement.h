@@ -17,6 +17,7 @@
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/normal_coordinates.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Overlay.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +48,12 @@ Conformal_metric<NT> metric_of_chords(const Ideal_polyhedron<NT>& polyhedron)
     result.log_scale_factors.push_back(static_cast<NT>(-Wide(log(weight))));
   }
   return result;
+}
+
+inline void sort_and_make_unique(std::vector<std::uint32_t>& indices)
+{
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
 }
 
 // The refinement without points of the plane, and the vectors of its vertices.

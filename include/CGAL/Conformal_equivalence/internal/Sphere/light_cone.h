@@ -138,6 +138,17 @@ Light_vector<double> rounded(const Light_vector<Number>& v)
   return {{ static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]), static_cast<double>(v[3]) }};
 }
 
+// Points in the number type of the result.
+template <typename NT, typename Wide, std::size_t dimension>
+std::vector<std::array<NT, dimension> > rounded_points(const std::vector<std::array<Wide, dimension> >& points)
+{
+  std::vector<std::array<NT, dimension> > result(points.size());
+  for(std::size_t v = 0; v < points.size(); ++v)
+    for(std::size_t i = 0; i < dimension; ++i)
+      result[v][i] = static_cast<NT>(points[v][i]);
+  return result;
+}
+
 template <typename Number>
 void transform(const Lorentz_matrix<Number>& m, std::vector<Light_vector<Number> >& points)
 {
