@@ -4,6 +4,7 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SPHERE_DISK_NORMALIZATION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SPHERE_DISK_NORMALIZATION_H
 
+#include <CGAL/Conformal_equivalence/internal/Overlay/projective_cell.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Moebius_centering.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
