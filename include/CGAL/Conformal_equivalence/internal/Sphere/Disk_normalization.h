@@ -4,9 +4,9 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SPHERE_DISK_NORMALIZATION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SPHERE_DISK_NORMALIZATION_H
 
-#include <CGAL/Conformal_equivalence/internal/Overlay/projective_cell.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Moebius_centering.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/sphere_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <algorithm>
@@ -79,8 +79,8 @@ private:
   {
     std::array<std::array<Wide, 3>, 3> from, to;
     set_bases(v, border, from, to);
-    const Wide all = determinant_of_columns(from[0], from[1], from[2]);
-    if(!(all * determinant_of_columns(to[0], to[1], to[2]) > 0)) // two of them are the same, or in the wrong order
+    const Wide all = determinant(from[0], from[1], from[2]);
+    if(!(all * determinant(to[0], to[1], to[2]) > 0)) // two of them are the same, or in the wrong order
       return false;
     Lorentz_matrix<Wide> m = Lorentz_matrix<Wide>::identity();
     const std::array<std::size_t, 3> at = {{0, 2, 3}};
@@ -88,8 +88,8 @@ private:
     {
       std::array<Wide, 3> unit = {{Wide(0), Wide(0), Wide(0)}};
       unit[k] = Wide(1);
-      const std::array<Wide, 3> b = {{ determinant_of_columns(unit, from[1], from[2]) / all, determinant_of_columns(from[0], unit, from[2]) / all,
-                                       determinant_of_columns(from[0], from[1], unit) / all }};
+      const std::array<Wide, 3> b = {{ determinant(unit, from[1], from[2]) / all, determinant(from[0], unit, from[2]) / all,
+                                       determinant(from[0], from[1], unit) / all }};
       for(std::size_t i = 0; i < 3; ++i)
         m.row[at[i]][at[k]] = b[0] * to[0][i] + b[1] * to[1][i] + b[2] * to[2][i];
     }
