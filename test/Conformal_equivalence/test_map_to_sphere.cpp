@@ -934,8 +934,7 @@ BOOST_AUTO_TEST_CASE(every_vertex_can_be_sent_to_infinity)
     all.push_back(e);
   CEi::Delaunay_flipper<double> flipper(start);
   BOOST_REQUIRE(flipper.flip_to_delaunay(std::vector<double>(), all, CEi::Flip_rule::EUCLIDEAN, [&](Index e) { flips.push_back(e); }));
-  const auto np = params::retriangulation(Retriangulation::ALWAYS);
-  const CEi::Ideal_polyhedron_finder<double, std::decay_t<decltype(np)> > find(given, np);
+  const CEi::Ideal_polyhedron_finder<double, CE::Default_solver_traits> find(given, CE::Solver_options(), CE::Default_solver_traits());
   std::size_t small_stars = 0;
   for(Index v = 0; v < given.number_of_vertices(); ++v)
   {
