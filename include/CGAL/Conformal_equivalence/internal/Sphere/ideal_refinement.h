@@ -16,6 +16,7 @@
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/normal_coordinates.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Overlay.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/overlay_layout.h>
 
 #include <algorithm>
 #include <cmath>
