@@ -65,7 +65,7 @@ Solver_options read_solver_options(const NamedParameters& np, std::size_t number
   }
   else
     CGAL_USE(number_of_vertices);
-  result.visitor = internal::any_visitor_of(np);
+  result.visitor = internal::visitor_of(np);
   return result;
 }
 

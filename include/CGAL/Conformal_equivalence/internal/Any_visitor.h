@@ -61,7 +61,7 @@ private:
 
 // The visitor among the named parameters; one that does nothing if there is none.
 template <typename NamedParameters>
-Any_visitor any_visitor_of(const NamedParameters& np)
+Any_visitor visitor_of(const NamedParameters& np)
 {
   if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value)
     return Any_visitor();
