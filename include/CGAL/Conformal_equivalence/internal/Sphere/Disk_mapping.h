@@ -105,7 +105,7 @@ private:
     twofold_ = std::make_unique<Surface_double<NT> >(t);
     const Moebius_weights kind = given_moebius_weights(np);
     Inscribed_polygon<NT> polygon(t, *twofold_);
-    const Solver_options options = read_solver_options(np, 0);
+    const Solver_options options = Conformal_equivalence::read_solver_options(np, 0);
     if(polygon(options.retriangulation))
     {
       polyhedron = std::move(polygon.polyhedron);

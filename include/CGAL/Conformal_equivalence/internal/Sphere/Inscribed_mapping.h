@@ -185,7 +185,7 @@ template <typename TriangleMesh, typename NT, typename NamedParameters, typename
 void run_mapping(Imported_mesh<TriangleMesh, NT>& mesh, Flattening_report<TriangleMesh>& report, const NamedParameters& np,
                  Is_kind is_kind, Find find, Judge judge)
 {
-  const Any_visitor visitor = read_solver_options(np, 0).visitor;
+  const Any_visitor visitor = Conformal_equivalence::read_solver_options(np, 0).visitor;
   try
   {
     double seconds = 0;
