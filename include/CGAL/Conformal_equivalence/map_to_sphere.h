@@ -30,22 +30,28 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceDoors
 ///
-/// maps a closed triangle mesh of genus 0 to the unit sphere: the chords between the images of the vertices are discretely conformally equivalent to the
+/// maps a closed triangle mesh of genus 0 to the unit sphere: the chords between the images of the vertices are discretely conformally equivalent to
+/// the
 /// edges of the mesh, all around every vertex. The barycentre of the vertices is the centre of the sphere.
 ///
-/// On the triangulation of the mesh (`Retriangulation::NEVER`, or `WHEN_NEEDED` if that is possible) every triangle becomes a triangle of great arcs, and
-/// length cross ratios are preserved. The result is kept only if all of these triangles are positive. Otherwise edges are flipped, as by `flatten()`; the images of the vertices are then the corners of a convex polyhedron
-/// that exists for every mesh, and triangles become the parts of `spherical_refinement`; straight triangles between the images may be flipped, which is
+/// On the triangulation of the mesh (`Retriangulation::NEVER`, or `WHEN_NEEDED` if that is possible) every triangle becomes a triangle of great arcs,
+/// and
+/// length cross ratios are preserved. The result is kept only if all of these triangles are positive. Otherwise edges are flipped, as by `flatten()`;
+/// the images of the vertices are then the corners of a convex polyhedron
+/// that exists for every mesh, and triangles become the parts of `spherical_refinement`; straight triangles between the images may be flipped, which
+/// is
 /// an error (`NOT_INJECTIVE`) unless the refinement is asked for. `map_to_sphere_refined()` makes a mesh of it.
 ///
 /// Triangles are judged by exact predicates on the coordinates as they were computed, in pairs of `double`. If all are positive, and the solid angles
 /// sum up to 4 pi (`Flattening_report::solid_angle`), the map is one-to-one. Where parts of the mesh become so small on the sphere that
-/// `double` cannot tell their points apart, triangles may be lost when the points are rounded: these are counted exactly, and listed (`Flattening_report::rounded_faces`);
+/// `double` cannot tell their points apart, triangles may be lost when the points are rounded: these are counted exactly, and listed
+/// (`Flattening_report::rounded_faces`);
 /// `map_to_sphere<NT>()` with more digits keeps them.
 ///
 /// \tparam NT number type of lengths, and of the points: `double`, or a binary floating-point number of Boost.Multiprecision
 /// \tparam TriangleMesh a model of `FaceListGraph`
-/// \tparam VertexPointMap a model of `WritablePropertyMap` with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type that
+/// \tparam VertexPointMap a model of `WritablePropertyMap` with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type
+///        that
 ///         can be made from three `NT`, such as `Point_3`
 ///
 /// \param tm a triangle mesh: one component, without border and handles, with at least four vertices, apart from isolated ones
@@ -92,7 +98,9 @@ namespace Conformal_equivalence {
 /// \cgalNamedParamsEnd
 ///
 /// \return the report. Maps are written iff it is a success. Statuses: those of `import_mesh()`; `WRONG_TOPOLOGY`, with what was found
-///         (`Flattening_report::topology`); those of `Conformal_metric_solver::solve()`; `SINGULAR_PROBLEM` if no Moebius transformation centres the barycentre: with `Moebius_weights::AREAS` where no triangle has an area; `NOT_INJECTIVE` (faces); those of `compute_common_refinement()` if the refinement was asked for.
+///         (`Flattening_report::topology`); those of `Conformal_metric_solver::solve()`; `SINGULAR_PROBLEM` if no Moebius transformation centres the
+///         barycentre: with `Moebius_weights::AREAS` where no triangle has an area; `NOT_INJECTIVE` (faces); those of `compute_common_refinement()`
+///         if the refinement was asked for.
 ///
 /// Time is that of `flatten()` for a disk of that size; with flips that of a few of them.
 ///
@@ -119,7 +127,8 @@ Flattening_report<TriangleMesh> map_to_sphere(const TriangleMesh& tm,
 
 /// \ingroup PkgConformalEquivalenceDoors
 ///
-/// maps a closed triangle mesh of genus 0 to the unit sphere, as `map_to_sphere()` does, and makes a mesh of the parts into which the edges of the convex
+/// maps a closed triangle mesh of genus 0 to the unit sphere, as `map_to_sphere()` does, and makes a mesh of the parts into which the edges of the
+/// convex
 /// polyhedron on the sphere cut the given one. Where no edge was flipped that is a copy.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
@@ -128,7 +137,8 @@ Flattening_report<TriangleMesh> map_to_sphere(const TriangleMesh& tm,
 ///         can be made from three `double`
 ///
 /// \param tm a triangle mesh
-/// \param refined the mesh to be made, empty: vertices of `tm` come first, in the order of `vertices(tm)`, then the crossings of edges, which lie on edges
+/// \param refined the mesh to be made, empty: vertices of `tm` come first, in the order of `vertices(tm)`, then the crossings of edges, which lie on
+///        edges
 ///        of `tm`. Its faces are triangles unless these would make several edges between the same two vertices.
 /// \param sphere_map receives the points of the sphere
 /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of `map_to_sphere()`, with maps of `tm`
@@ -152,7 +162,8 @@ Flattening_report<TriangleMesh> map_to_sphere(const TriangleMesh& tm,
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \return the report of `map_to_sphere()`, with `bent_faces`; `NOT_REPRESENTABLE` if `refined` cannot hold the result. Meshes and maps are written iff it is a success.
+/// \return the report of `map_to_sphere()`, with `bent_faces`; `NOT_REPRESENTABLE` if `refined` cannot hold the result. Meshes and maps are written
+///        iff it is a success.
 template <typename TriangleMesh, typename RefinedMesh, typename VertexPointMap,
           typename NamedParameters = parameters::Default_named_parameters,
           typename NamedParametersRefined = parameters::Default_named_parameters>

@@ -52,7 +52,8 @@ public:
       triangulation_.set_length(rest.original_edge[e], metric.triangulation.length(e));
   }
 
-  // Flips link edges that are too long, and edges of the apex to reflex angles, where no triangle of them has changed before. Returns whether there was
+  // Flips link edges that are too long, and edges of the apex to reflex angles, where no triangle of them has changed before. Returns whether there
+  // was
   // anything to do.
   bool exchange(const Punctured_surface<NT>& rest, const Metric& metric)
   {

@@ -99,7 +99,8 @@ private:
     const Intrinsic_triangulation<NT>& t = mesh.triangulation;
     const Index apex = given_apex(mesh, np);
     CGAL_precondition(apex == t.null_index || t.is_border_vertex(apex));
-    frame_ = indexed_frame(mesh, parameters::choose_parameter(parameters::get_parameter(np, internal_np::conformal_disk_frame), Barycentre_disk_frame()));
+    const auto given_frame = parameters::get_parameter(np, internal_np::conformal_disk_frame);
+    frame_ = indexed_frame(mesh, parameters::choose_parameter(given_frame, Barycentre_disk_frame()));
     if(!is_possible())
       return;
     twofold_ = std::make_unique<Surface_double<NT> >(t);
@@ -172,7 +173,8 @@ private:
       const Index i = t.origin(3 * f), j = t.origin(3 * f + 1), k = t.origin(3 * f + 2);
       if(i >= n || j >= n || k >= n)
         continue;
-      const bool is_at_axis = mesh.triangulation.is_border_vertex(i) && mesh.triangulation.is_border_vertex(j) && mesh.triangulation.is_border_vertex(k);
+      const Intrinsic_triangulation<NT>& t = mesh.triangulation;
+      const bool is_at_axis = t.is_border_vertex(i) && t.is_border_vertex(j) && t.is_border_vertex(k);
       if(!(is_doubled(found) && is_at_axis) && !is_positive_in_disk(p[i], p[j], p[k])) // at the axis it may belong to the image
         result.push_back(f);
     }

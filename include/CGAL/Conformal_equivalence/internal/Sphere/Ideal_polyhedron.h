@@ -5,6 +5,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SPHERE_IDEAL_POLYHEDRON_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>

@@ -5,6 +5,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SPHERE_PUNCTURED_SURFACE_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
 
 #include <cstdint>
 #include <utility>
