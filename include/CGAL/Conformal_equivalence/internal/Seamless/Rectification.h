@@ -14,7 +14,6 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Laplace_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Meta_polygon.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Normalized_layout.h>
@@ -396,7 +395,7 @@ private:
     result_.tiling.symmetry = lattice_.symmetry();
     result_.tiling.scale = std::abs(scale_) / normalized_->unit();
     result_.tiling.rotation = std::remainder(std::arg(scale_), 2 * CGAL_PI);
-    std::vector<Face_distortion> before, after;
+    std::vector<Face_factor> before, after;
     double area = 0;
     for(Index f = 0; f < t_.number_of_faces(); ++f)
     {
@@ -405,8 +404,8 @@ private:
       if(!given.is_degenerate())
       {
         const UV_corners flat = uv_corners([&](Index h) { return flat_corner(h); }, f);
-        before.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, flat)});
-        after.push_back({given.area(), Scaled_number<double>(), quasi_conformal_factor(given, image)});
+        before.push_back({given.area(), quasi_conformal_factor(given, flat)});
+        after.push_back({given.area(), quasi_conformal_factor(given, image)});
       }
       area += std::imag(std::conj(in_plane(3 * f + 1) - in_plane(3 * f)) * (in_plane(3 * f + 2) - in_plane(3 * f))) / 2;
     }
@@ -419,14 +418,14 @@ private:
   Mean_factor deformation_factor(const Motions& motion, const Positions& z) const
   {
     const auto image = [&](Index h) { return lattice_.to_plane(polygon_.apply(motion[polygon_.motion_of_corner[h]], z[t_.target(h)])); };
-    std::vector<Face_distortion> result;
+    std::vector<Face_factor> result;
     for(Index f = 0; f < t_.number_of_faces(); ++f)
     {
       const Triangle_frame given = given_frame(t_, f);
       if(given.is_degenerate() || !is_flat_positive(f))
         continue;
       const double factor = quasi_conformal_factor(plane_frame(normalized_->corners(), f), uv_corners(image, f));
-      result.push_back({given.area(), Scaled_number<double>(), factor});
+      result.push_back({given.area(), factor});
     }
     return mean_factor(result);
   }

@@ -7,8 +7,8 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_MEAN_FACTOR_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/quasi_conformal_factor.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +20,29 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
+
+// Of one triangle, with its area in the mesh.
+struct Face_factor
+{
+  Scaled_number<double> area;
+  double factor;
+};
+
+// The sum of the areas as a multiple of 2^(exponent of the largest).
+inline Scaled_number<double> total_area(const std::vector<Face_factor>& faces)
+{
+  Scaled_number<double> total;
+  bool is_first = true;
+  for(const Face_factor& f : faces)
+    if(f.area.mantissa > 0 && (is_first || f.area.exponent > total.exponent))
+    {
+      total.exponent = f.area.exponent;
+      is_first = false;
+    }
+  for(const Face_factor& f : faces)
+    total.mantissa += f.area.scaled_to(total.exponent);
+  return total;
+}
 
 struct Mean_factor
 {
@@ -53,14 +76,14 @@ UV_corners uv_corners(Corner corner, std::uint32_t f)
 }
 
 // Weighted by the areas in the mesh. Needles whose images have no area in the plane do not count.
-inline Mean_factor mean_factor(const std::vector<Face_distortion>& faces)
+inline Mean_factor mean_factor(const std::vector<Face_factor>& faces)
 {
   Mean_factor result;
   if(faces.empty())
     return result;
-  const Scaled_number<double> total = total_area(faces, [](const Face_distortion& f) { return f.area; });
+  const Scaled_number<double> total = total_area(faces);
   double excess = 0;
-  for(const Face_distortion& f : faces)
+  for(const Face_factor& f : faces)
   {
     const double weight = f.area.scaled_to(total.exponent) / total.mantissa;
     if(!(weight > 0) || std::isnan(f.factor))
