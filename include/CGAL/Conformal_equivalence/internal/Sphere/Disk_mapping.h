@@ -173,8 +173,8 @@ private:
       const Index i = t.origin(3 * f), j = t.origin(3 * f + 1), k = t.origin(3 * f + 2);
       if(i >= n || j >= n || k >= n)
         continue;
-      const Intrinsic_triangulation<NT>& t = mesh.triangulation;
-      const bool is_at_axis = t.is_border_vertex(i) && t.is_border_vertex(j) && t.is_border_vertex(k);
+      const Intrinsic_triangulation<NT>& surface = mesh.triangulation;
+      const bool is_at_axis = surface.is_border_vertex(i) && surface.is_border_vertex(j) && surface.is_border_vertex(k);
       if(!(is_doubled(found) && is_at_axis) && !is_positive_in_disk(p[i], p[j], p[k])) // at the axis it may belong to the image
         result.push_back(f);
     }
