@@ -18,8 +18,7 @@ namespace Conformal_equivalence {
 /// \ingroup PkgConformalEquivalenceLayout
 ///
 /// The frame in which the barycentre of the vertices of the double, on the sphere of which the disk is a half, is the centre, and the first border
-/// vertex
-/// lies at (1, 0): the default of the named parameter `disk_frame`.
+/// vertex lies at (1, 0): the default of the named parameter `disk_frame`.
 struct Barycentre_disk_frame {};
 
 /// \ingroup PkgConformalEquivalenceLayout

@@ -3,8 +3,7 @@
 
 /// \file map_to_disk.h
 /// A topological disk as the unit disk, with all border vertices on the circle (sections 4.2 and 4.3 of Springborn, Schroeder and Pinkall, 2008): one
-/// border
-/// vertex is sent to infinity, the border becomes a straight line, and a Moebius transformation takes the half-plane to the disk. With flips
+/// border vertex is sent to infinity, the border becomes a straight line, and a Moebius transformation takes the half-plane to the disk. With flips
 /// there is a map for every disk: one half of the map of its double to the sphere.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_MAP_TO_DISK_H
@@ -33,16 +32,14 @@ namespace Conformal_equivalence {
 /// discretely conformally equivalent to the mesh. Among these maps, which differ by Moebius transformations of the disk, `disk_frame` tells which.
 ///
 /// On the triangulation of the mesh (`Retriangulation::NEVER`, or `WHEN_NEEDED` if that is possible) triangles become straight triangles, and length
-/// cross ratios are
-/// preserved; the result is kept only if all triangles are positive. Otherwise edges are flipped, on the double of the surface, as by
-/// `map_to_sphere()`: there is a map for every disk, which is straight on the parts of the triangles that `common_refinement` holds. Straight
-/// triangles between the images of the vertices may
-/// then be flipped, which is an error (`NOT_INJECTIVE`) unless the refinement is asked for; and a border edge may become a broken line, which is a
-/// little nearer to the circle than the chord (`lost_border_edges`). `map_to_disk_refined()` makes a mesh of the refinement.
+/// cross ratios are preserved; the result is kept only if all triangles are positive. Otherwise edges are flipped, on the double of the surface, as
+/// by `map_to_sphere()`: there is a map for every disk, which is straight on the parts of the triangles that `common_refinement` holds. Straight
+/// triangles between the images of the vertices may then be flipped, which is an error (`NOT_INJECTIVE`) unless the refinement is asked for; and a
+/// border edge may become a broken line, which is a little nearer to the circle than the chord (`lost_border_edges`). `map_to_disk_refined()` makes a
+/// mesh of the refinement.
 ///
 /// Triangles are judged by exact predicates on the coordinates as they were computed, in pairs of `double`; those that are positive there, but not
-/// when rounded,
-/// are listed (`Flattening_report::rounded_faces`). Positive triangles and a border that goes around once make the map one-to-one.
+/// when rounded, are listed (`Flattening_report::rounded_faces`). Positive triangles and a border that goes around once make the map one-to-one.
 ///
 /// \tparam NT number type of lengths, and of the points: `double`, or a binary floating-point number of Boost.Multiprecision
 /// \tparam TriangleMesh a model of `FaceListGraph`
@@ -99,8 +96,7 @@ namespace Conformal_equivalence {
 ///
 /// \return the report. Maps are written iff it is a success. Statuses: those of `import_mesh()`; `WRONG_TOPOLOGY`, with what was found
 ///         (`Flattening_report::topology`); those of `Conformal_metric_solver::solve()`; `SINGULAR_PROBLEM` (vertices) if there is no such frame;
-///         `NOT_INJECTIVE`
-///         (faces); those of `compute_common_refinement()` if the refinement was asked for.
+///         `NOT_INJECTIVE` (faces); those of `compute_common_refinement()` if the refinement was asked for.
 ///
 /// \sa `CGAL::Conformal_equivalence::map_to_sphere()`
 template <typename NT = double, typename TriangleMesh, typename VertexUVMap, typename NamedParameters = parameters::Default_named_parameters>
@@ -126,8 +122,7 @@ Flattening_report<TriangleMesh> map_to_disk(const TriangleMesh& tm,
 /// \ingroup PkgConformalEquivalenceDoors
 ///
 /// maps a topological disk to the unit disk, as `map_to_disk()` does, and makes a mesh of the parts into which the edges of the triangulation of the
-/// disk
-/// cut the given one. Where no edge was flipped that is a copy.
+/// disk cut the given one. Where no edge was flipped that is a copy.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam RefinedMesh a model of `MutableFaceGraph`

@@ -31,28 +31,23 @@ namespace Conformal_equivalence {
 /// \ingroup PkgConformalEquivalenceDoors
 ///
 /// maps a closed triangle mesh of genus 0 to the unit sphere: the chords between the images of the vertices are discretely conformally equivalent to
-/// the
-/// edges of the mesh, all around every vertex. The barycentre of the vertices is the centre of the sphere.
+/// the edges of the mesh, all around every vertex. The barycentre of the vertices is the centre of the sphere.
 ///
 /// On the triangulation of the mesh (`Retriangulation::NEVER`, or `WHEN_NEEDED` if that is possible) every triangle becomes a triangle of great arcs,
-/// and
-/// length cross ratios are preserved. The result is kept only if all of these triangles are positive. Otherwise edges are flipped, as by `flatten()`;
-/// the images of the vertices are then the corners of a convex polyhedron
+/// and length cross ratios are preserved. The result is kept only if all of these triangles are positive. Otherwise edges are flipped, as by
+/// `flatten()`; the images of the vertices are then the corners of a convex polyhedron
 /// that exists for every mesh, and triangles become the parts of `spherical_refinement`; straight triangles between the images may be flipped, which
-/// is
-/// an error (`NOT_INJECTIVE`) unless the refinement is asked for. `map_to_sphere_refined()` makes a mesh of it.
+/// is an error (`NOT_INJECTIVE`) unless the refinement is asked for. `map_to_sphere_refined()` makes a mesh of it.
 ///
 /// Triangles are judged by exact predicates on the coordinates as they were computed, in pairs of `double`. If all are positive, and the solid angles
 /// sum up to 4 pi (`Flattening_report::solid_angle`), the map is one-to-one. Where parts of the mesh become so small on the sphere that
 /// `double` cannot tell their points apart, triangles may be lost when the points are rounded: these are counted exactly, and listed
-/// (`Flattening_report::rounded_faces`);
-/// `map_to_sphere<NT>()` with more digits keeps them.
+/// (`Flattening_report::rounded_faces`); `map_to_sphere<NT>()` with more digits keeps them.
 ///
 /// \tparam NT number type of lengths, and of the points: `double`, or a binary floating-point number of Boost.Multiprecision
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam VertexPointMap a model of `WritablePropertyMap` with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and a value type
-///        that
-///         can be made from three `NT`, such as `Point_3`
+///        that can be made from three `NT`, such as `Point_3`
 ///
 /// \param tm a triangle mesh: one component, without border and handles, with at least four vertices, apart from isolated ones
 /// \param sphere_map receives the points; isolated vertices get none
@@ -128,8 +123,7 @@ Flattening_report<TriangleMesh> map_to_sphere(const TriangleMesh& tm,
 /// \ingroup PkgConformalEquivalenceDoors
 ///
 /// maps a closed triangle mesh of genus 0 to the unit sphere, as `map_to_sphere()` does, and makes a mesh of the parts into which the edges of the
-/// convex
-/// polyhedron on the sphere cut the given one. Where no edge was flipped that is a copy.
+/// convex polyhedron on the sphere cut the given one. Where no edge was flipped that is a copy.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam RefinedMesh a model of `MutableFaceGraph`
@@ -138,8 +132,7 @@ Flattening_report<TriangleMesh> map_to_sphere(const TriangleMesh& tm,
 ///
 /// \param tm a triangle mesh
 /// \param refined the mesh to be made, empty: vertices of `tm` come first, in the order of `vertices(tm)`, then the crossings of edges, which lie on
-///        edges
-///        of `tm`. Its faces are triangles unless these would make several edges between the same two vertices.
+///        edges of `tm`. Its faces are triangles unless these would make several edges between the same two vertices.
 /// \param sphere_map receives the points of the sphere
 /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of `map_to_sphere()`, with maps of `tm`
 /// \param np_refined an optional sequence of \ref bgl_namedparameters "Named Parameters" for `refined`, among the ones listed below

@@ -53,8 +53,7 @@ public:
   }
 
   // Flips link edges that are too long, and edges of the apex to reflex angles, where no triangle of them has changed before. Returns whether there
-  // was
-  // anything to do.
+  // was anything to do.
   bool exchange(const Punctured_surface<NT>& rest, const Metric& metric)
   {
     std::vector<char> is_touched(metric.triangulation.number_of_vertices(), 0);

@@ -17,8 +17,7 @@
 //
 // On the triangulation as it is, triangles of the result may be flipped. With flips, the polyhedron is convex for every surface
 // (I. Rivin, 1996; Springborn, 2020, section 7): u minimizes the energy of the rest of the surface subject to u_i + 2 log l_ip >= 0 for the edges ip
-// of
-// the current triangulation, and the active conditions make the link. Here the link is found by exchange: it is kept while
+// of the current triangulation, and the active conditions make the link. Here the link is found by exchange: it is kept while
 // the disk is made flat, then
 //  - a link edge jk on which the triangle jkm has become longer than its other two sides is flipped to pm: m would violate its condition;
 //  - an edge ip where the disk has an angle above pi is flipped, too: i is not held any more.

@@ -107,8 +107,7 @@ private:
   }
 
   // Seen from another vertex, a polyhedron that is not convex may have triangles that are flipped in the plane, and then is not found. So that it
-  // does not
-  // depend on the vertex given whether edges will be flipped, the best one decides, unless `is_any_good`.
+  // does not depend on the vertex given whether edges will be flipped, the best one decides, unless `is_any_good`.
   Polyhedron on_fixed_triangulation(Index apex, bool is_any_good, const Accept& accept) const
   {
     const std::vector<Index> best = best_apices(surface_, 1);

@@ -24,8 +24,7 @@ namespace Conformal_equivalence {
 namespace internal {
 
 // A surface without inner vertices as a polygon inscribed to the circle. There is nothing to solve: the three corners of a triangle go anywhere on
-// the
-// circle, and the others follow from cross ratios, one after the other.
+// the circle, and the others follow from cross ratios, one after the other.
 template <typename NT>
 class Inscribed_polygon
 {

@@ -21,12 +21,10 @@ namespace Conformal_equivalence {
 namespace internal {
 
 // The Moebius transformation after which the weighted barycentre of the points is the origin (B. Springborn, A unique representation of polyhedral
-// types.
-// Centering via Moebius transformations, 2005): it takes to the origin the point x of hyperbolic space for which the sum of all w log(-<x, v>),
-// the distances from horospheres, is least. That is convex along geodesics; with points p of the sphere, its gradient at the
+// types. Centering via Moebius transformations, 2005): it takes to the origin the point x of hyperbolic space for which the sum of all w log(-<x,
+// v>), the distances from horospheres, is least. That is convex along geodesics; with points p of the sphere, its gradient at the
 // origin is -sum w p, its second derivative sum w (1 - p p^T). There is one iff no point has half of the weight. If all points have a mirror image
-// with
-// respect to the plane y = 0, which need not be given, the transformation keeps that plane.
+// with respect to the plane y = 0, which need not be given, the transformation keeps that plane.
 class Moebius_centering
 {
 public:
@@ -127,8 +125,7 @@ private:
   }
 
   // The solution x of m x = b for a symmetric matrix, by its factors L D L^T with the greatest entries of the diagonal first; where D is 0, x is.
-  // This is
-  // Eigen::LDLT, operation by operation, which takes longer to compile than all the rest of this class.
+  // This is Eigen::LDLT, operation by operation, which takes longer to compile than all the rest of this class.
   static Eigen::Vector3d solve(const Eigen::Matrix3d& m, const Eigen::Vector3d& b)
   {
     std::array<int, 3> p = {{0, 1, 2}};

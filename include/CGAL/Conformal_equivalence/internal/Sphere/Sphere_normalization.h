@@ -32,8 +32,7 @@ class Sphere_normalization
 
 public:
   // `weights`: by vertex, 0 for isolated ones; `given`: the points to which those of the sphere are turned, by vertex, or none; `first`, `second`:
-  // the
-  // vertices that tell the rotation where these do not
+  // the vertices that tell the rotation where these do not
   Sphere_normalization(std::vector<double> weights, std::vector<std::array<double, 3> > given, Index first, Index second)
     : weights_(std::move(weights)), given_(std::move(given)), first_(first), second_(second)
   {}

@@ -26,8 +26,7 @@ namespace Conformal_equivalence {
 namespace internal {
 
 // From the flat metric of a surface without its apex to points of the sphere: the disk is laid out in the plane, moved so that the vertices spread
-// over
-// both hemispheres, and projected from the pole, where the apex is.
+// over both hemispheres, and projected from the pole, where the apex is.
 template <typename NT>
 class Stereographic_placement
 {

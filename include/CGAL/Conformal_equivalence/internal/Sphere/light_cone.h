@@ -157,8 +157,7 @@ void transform(const Lorentz_matrix<Number>& m, std::vector<Light_vector<Number>
 }
 
 // The rotation that takes a point of the sphere, of any length but 0, to the pole (0, 0, 1): about the axis at right angles to both. Where the point
-// is
-// so near to the other pole that the cosine has lost the angle, half of what is missing to half a turn is its distance from the axis of the poles.
+// is so near to the other pole that the cosine has lost the angle, half of what is missing to half a turn is its distance from the axis of the poles.
 template <typename Number>
 Lorentz_matrix<Number> rotation_to_pole(const std::array<double, 3>& point)
 {
