@@ -69,12 +69,13 @@ NT energy_of_face(const Intrinsic_triangulation<Length>& t, std::uint32_t f, con
 ///
 /// returns the value of the energy
 ///
-/// \f[ E(u) = \sum_{ijk} \left( f(\tilde\lambda_{ij}, \tilde\lambda_{jk}, \tilde\lambda_{ki}) - \frac{\pi}{2} (u_i + u_j + u_k) \right)
-///          + \frac12 \sum_i \hat\Theta_i u_i, \f]
+/// \f[ E(u) = \sum_{ijk} \left( f_{ijk}(\tilde\lambda) - \frac{\pi}{2} (u_i + u_j + u_k) \right) + \frac12 \sum_i \hat\Theta_i u_i, \f]
 ///
 /// equation (7), where \f$ \tilde\lambda_{ij} = 2 \log l_{ij} + u_i + u_j \f$ are the logarithmic lengths of the metric
-/// \f$ e^{(u_i + u_j)/2} l_{ij} \f$, and \f$ f = \frac12 (\alpha \tilde\lambda_{jk} + \beta \tilde\lambda_{ki} + \gamma \tilde\lambda_{ij})
-/// + L(\alpha) + L(\beta) + L(\gamma) \f$ with Milnor's Lobachevsky function L and the angles of the triangle, equation (8).
+/// \f$ e^{(u_i + u_j)/2} l_{ij} \f$, and, with the angles of the triangle and Milnor's Lobachevsky function L, equation (8),
+///
+/// \f[ f_{ijk} = \frac12 (\alpha \tilde\lambda_{jk} + \beta \tilde\lambda_{ki} + \gamma \tilde\lambda_{ij}) + L(\alpha) + L(\beta) + L(\gamma). \f]
+///
 /// A triangle that violates its inequality has the angles pi, 0 and 0: so E is defined for all u, convex and continuously differentiable
 /// (section 3.1).
 ///
