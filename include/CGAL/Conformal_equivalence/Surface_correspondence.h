@@ -17,290 +17,24 @@
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
-#include <CGAL/Conformal_equivalence/Flattening_report.h>
-#include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/Disk_frame.h>
+#include <CGAL/Conformal_equivalence/Image_locator.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/Common_refinement.h>
-#include <CGAL/Conformal_equivalence/flatten.h>
-#include <CGAL/Conformal_equivalence/internal/Sphere/Image_border.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Projective_atlas.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Three_point_transformation.h>
-#include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/map_to_disk.h>
 #include <CGAL/Conformal_equivalence/map_to_sphere.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/assertions.h>
 
-#include <boost/graph/graph_traits.hpp>
-
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <new>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Conformal_equivalence {
-
-namespace internal {
-
-// Fills the atlas, and names faces that are not positive.
-template <typename TriangleMesh>
-void set_atlas(Projective_atlas<TriangleMesh>& atlas, Common_refinement<double> parts, std::vector<Wide_vector> points,
-               std::vector<Wide_number> weights, Flattening_report<TriangleMesh>& report)
-{
-  const std::vector<std::uint32_t> flipped = atlas.set(std::move(parts), std::move(points), std::move(weights));
-  if(flipped.empty())
-    return;
-  report.status = Status::NOT_INJECTIVE;
-  name_elements(atlas.mesh(), {}, {}, flipped, report);
-}
-
-} // namespace internal
-
-/// \ingroup PkgConformalEquivalenceLayout
-///
-/// maps a closed mesh of genus 0 to the unit sphere, as `map_to_sphere()` does, and answers where a point of the mesh lies on the
-/// sphere, and which point of the mesh lies in a direction. Where edges were flipped, triangles are mapped part by part
-/// (`Spherical_refinement`).
-///
-/// The triangle, or part, that holds a direction is found by exact predicates on the points as they were computed, in pairs of
-/// `double`: every direction has one, also on edges and at vertices. Keeps a reference to the mesh. Queries change nothing: any
-/// number of them may run at the same time.
-///
-/// \tparam TriangleMesh a model of `FaceListGraph`
-template <typename TriangleMesh>
-class Sphere_locator
-{
-  typedef boost::graph_traits<TriangleMesh> Traits;
-
-public:
-  typedef TriangleMesh Triangle_mesh;                           ///< type of the mesh
-  typedef typename Traits::vertex_descriptor vertex_descriptor; ///< of the mesh
-  typedef typename Traits::face_descriptor face_descriptor;     ///< of the mesh
-
-  /// A point of the mesh: a face, and barycentric coordinates with sum 1, none negative, of the vertices around the face from
-  /// `source(halfedge(f, tm), tm)` on. It is the `Face_location` of Polygon Mesh Processing.
-  typedef std::pair<face_descriptor, std::array<double, 3> > Face_location;
-
-  typedef std::array<double, 3> Image_point; ///< a point of space
-
-  /// maps the mesh. Time is that of `map_to_sphere()` with a refinement, and O(n log n) for `n` faces and crossings.
-  ///
-  /// \param tm a triangle mesh
-  /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of `map_to_sphere()`; of those
-  ///        that receive results, only `visitor` has an effect
-  template <typename NamedParameters = parameters::Default_named_parameters>
-  explicit Sphere_locator(const TriangleMesh& tm, const NamedParameters& np = parameters::default_values())
-    : atlas_(Imported_mesh<TriangleMesh>(tm))
-  {
-    internal::Sphere_mapping<TriangleMesh, double> mapping(tm);
-    mapping.run(np, true);
-    report_ = mapping.report;
-    try
-    {
-      if(bool(report_))
-        set(mapping);
-    }
-    catch(const std::bad_alloc&)
-    {
-      report_.status = Status::OUT_OF_MEMORY;
-    }
-  }
-
-  /// the report of `map_to_sphere()`
-  const Flattening_report<TriangleMesh>& report() const { return report_; }
-
-  /// is `true` iff there are answers.
-  explicit operator bool() const { return bool(report_); }
-
-  /// returns where a vertex is. \pre `v` is not isolated
-  Face_location vertex_location(vertex_descriptor v) const { return atlas_.vertex_location(v); }
-
-  /// returns the point of the unit sphere at which a point of the mesh lies. Linear in the number of parts of the face, of which
-  /// there is one without flips.
-  /// \pre the locator is a success; the coordinates are finite, and one is positive; they need not sum up to 1, and negative ones
-  /// count as 0
-  Image_point image_point(const Face_location& location) const
-  {
-    CGAL_precondition(bool(*this));
-    return internal::rounded_vector(internal::unit_vector(image(location)));
-  }
-
-  /// returns the point of the mesh that lies in the direction `d`. About O(log n), where points do not crowd beyond the
-  /// resolution of `double`. On an edge, any of its faces is chosen, but always the same one.
-  /// \pre the locator is a success; `d` is finite and not 0
-  Face_location surface_point(const Image_point& d) const
-  {
-    return preimage({{ internal::Wide_number(d[0]), internal::Wide_number(d[1]), internal::Wide_number(d[2]) }});
-  }
-
-private:
-  template <typename LocatorA, typename LocatorB> friend class Surface_correspondence;
-
-  void set(internal::Sphere_mapping<TriangleMesh, double>& mapping)
-  {
-    using internal::Light_vector;
-    using internal::Wide_number;
-    Common_refinement<double> parts = std::move(mapping.refinement.parts);
-    std::vector<internal::Wide_vector> points;
-    std::vector<Wide_number> weights;
-    for(const Light_vector<Wide_number>& v : mapping.refined_vectors)
-    {
-      const bool is_used = v[3] > Wide_number(0);
-      points.push_back(is_used ? internal::sphere_point(v) : internal::Wide_vector{{ Wide_number(0), Wide_number(0), Wide_number(0) }});
-      weights.push_back(sqrt(Wide_number(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))); // crossings lie within the sphere
-    }
-    atlas_ = internal::Projective_atlas<TriangleMesh>(std::move(mapping.mesh));
-    internal::set_atlas(atlas_, std::move(parts), std::move(points), std::move(weights), report_);
-  }
-
-  // A vector in the direction of the point; of length 1 for a vertex
-  internal::Wide_vector image(const Face_location& location) const { return atlas_.image(location); }
-
-  Face_location preimage(const internal::Wide_vector& d) const
-  {
-    CGAL_precondition(bool(*this));
-    const std::optional<Face_location> result = atlas_.preimage(d);
-    CGAL_assertion_msg(bool(result), "positive triangles that cover the sphere once hold every direction");
-    return *result;
-  }
-
-  internal::Projective_atlas<TriangleMesh> atlas_;
-  Flattening_report<TriangleMesh> report_;
-};
-
-/// \ingroup PkgConformalEquivalenceLayout
-///
-/// maps a topological disk to the unit disk, as `map_to_disk()` does, and answers where a point of the mesh lies in the disk, and
-/// which point of the mesh lies at a point of the plane. Where edges were flipped, triangles are mapped part by part
-/// (`Common_refinement`).
-///
-/// The image is a polygon inscribed to the circle. What lies outside of it, between its sides and the circle, say, belongs to the
-/// nearest point of its border. The triangle, or part, that holds a point is found by exact predicates on the points as they were
-/// computed, in pairs of `double`. Keeps a reference to the mesh. Queries change nothing: any number of them may run at the same
-/// time.
-///
-/// \tparam TriangleMesh a model of `FaceListGraph`
-template <typename TriangleMesh>
-class Disk_locator
-{
-  typedef boost::graph_traits<TriangleMesh> Traits;
-
-public:
-  typedef TriangleMesh Triangle_mesh;                           ///< type of the mesh
-  typedef typename Traits::vertex_descriptor vertex_descriptor; ///< of the mesh
-  typedef typename Traits::face_descriptor face_descriptor;     ///< of the mesh
-
-  /// A point of the mesh, as `Sphere_locator::Face_location`.
-  typedef std::pair<face_descriptor, std::array<double, 3> > Face_location;
-
-  typedef std::array<double, 2> Image_point; ///< a point of the plane
-
-  /// maps the mesh. Time is that of `map_to_disk()` with a refinement, and O(n log n) for `n` faces and crossings.
-  ///
-  /// \param tm a triangle mesh
-  /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among those of `map_to_disk()`; of those that
-  ///        receive results, only `visitor` has an effect
-  template <typename NamedParameters = parameters::Default_named_parameters>
-  explicit Disk_locator(const TriangleMesh& tm, const NamedParameters& np = parameters::default_values())
-    : atlas_(Imported_mesh<TriangleMesh>(tm))
-  {
-    internal::Disk_mapping<TriangleMesh, double> mapping(tm);
-    mapping.run(np, true, true);
-    report_ = mapping.report;
-    try
-    {
-      if(bool(report_))
-        set(mapping);
-    }
-    catch(const std::bad_alloc&)
-    {
-      report_.status = Status::OUT_OF_MEMORY;
-    }
-  }
-
-  /// the report of `map_to_disk()`
-  const Flattening_report<TriangleMesh>& report() const { return report_; }
-
-  /// is `true` iff there are answers.
-  explicit operator bool() const { return bool(report_); }
-
-  /// returns where a vertex is. \pre `v` is not isolated
-  Face_location vertex_location(vertex_descriptor v) const { return atlas_.vertex_location(v); }
-
-  /// returns the point of the unit disk at which a point of the mesh lies. Linear in the number of parts of the face, of which
-  /// there is one without flips.
-  /// \pre as for `Sphere_locator::image_point()`
-  Image_point image_point(const Face_location& location) const
-  {
-    CGAL_precondition(bool(*this));
-    const internal::Wide_vector p = image(location);
-    return {{ static_cast<double>(p[0]), static_cast<double>(p[1]) }};
-  }
-
-  /// returns the point of the mesh that lies at `p`, or, if `p` is outside of the image, at the point of its border that is
-  /// nearest to `p`. About O(log n), where points do not crowd beyond the resolution of `double`. On an edge, any of its faces is
-  /// chosen, but always the same one.
-  /// \pre the locator is a success; `p` is finite
-  Face_location surface_point(const Image_point& p) const
-  {
-    return preimage({{ internal::Wide_number(p[0]), internal::Wide_number(p[1]), internal::Wide_number(1) }});
-  }
-
-private:
-  template <typename LocatorA, typename LocatorB> friend class Surface_correspondence;
-
-  typedef internal::Light_vector<internal::Wide_number> Vector;
-
-  static internal::Wide_vector point(const Vector& v)
-  {
-    using internal::Wide_number;
-    if(!(v[3] > Wide_number(0)))
-      return {{ Wide_number(0), Wide_number(0), Wide_number(1) }};
-    const std::array<Wide_number, 2> p = internal::disk_point(v);
-    return {{ p[0], p[1], Wide_number(1) }};
-  }
-
-  void set(internal::Disk_mapping<TriangleMesh, double>& mapping)
-  {
-    Common_refinement<double> parts = std::move(mapping.refinement);
-    std::vector<internal::Wide_vector> points;
-    std::vector<internal::Wide_number> weights;
-    for(const Vector& v : mapping.refined_vectors)
-    {
-      points.push_back(point(v));
-      weights.push_back(internal::weight_in_disk(v));
-    }
-    atlas_ = internal::Projective_atlas<TriangleMesh>(std::move(mapping.mesh));
-    internal::set_atlas(atlas_, std::move(parts), std::move(points), std::move(weights), report_);
-    if(bool(report_))
-      border_ = internal::Image_border(atlas_.mesh().triangulation, atlas_.parts(), [&](std::uint32_t v) { return atlas_.point(v); });
-  }
-
-  internal::Wide_vector image(const Face_location& location) const
-  {
-    const internal::Wide_vector p = atlas_.image(location);
-    return {{ p[0] / p[2], p[1] / p[2], internal::Wide_number(1) }};
-  }
-
-  Face_location preimage(const internal::Wide_vector& p) const
-  {
-    CGAL_precondition(bool(*this));
-    if(const std::optional<Face_location> result = atlas_.preimage(p))
-      return *result;
-    const internal::Image_border::Border_point nearest = border_.nearest({{ p[0] / p[2], p[1] / p[2] }});
-    return atlas_.location(nearest.part, nearest.coordinates);
-  }
-
-  internal::Projective_atlas<TriangleMesh> atlas_;
-  internal::Image_border border_;
-  Flattening_report<TriangleMesh> report_;
-};
 
 /// \ingroup PkgConformalEquivalenceLayout
 ///
@@ -367,7 +101,7 @@ public:
   const LocatorB& second() const { return b_; } ///< the map of the second surface, with its report
 
   /// returns the point of the second surface that corresponds to one of the first.
-  /// \pre the correspondence is a success; otherwise as for `Sphere_locator::image_point()`, in time, too
+  /// \pre the correspondence is a success; otherwise as for `Image_locator::image_point()`, in time, too
   Face_location_b operator()(const Face_location_a& location) const
   {
     CGAL_precondition(bool(*this));
