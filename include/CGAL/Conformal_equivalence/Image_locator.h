@@ -34,8 +34,8 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceLayout
 ///
-/// maps a mesh to the unit sphere or to the unit disk, and answers where a point of the mesh lies there, and which point of the mesh lies at a point of
-/// the image: `Sphere_locator` and `Disk_locator`. Where edges were flipped, triangles are mapped part by part (`Spherical_refinement`,
+/// maps a mesh to the unit sphere or to the unit disk, and answers where a point of the mesh lies there, and which point of the mesh lies at a point
+/// of the image: `Sphere_locator` and `Disk_locator`. Where edges were flipped, triangles are mapped part by part (`Spherical_refinement`,
 /// `Common_refinement`).
 ///
 /// The triangle, or part, that holds a point of the image is found by exact predicates on the points as they were computed, in pairs of
@@ -101,8 +101,8 @@ public:
     return Image::point(image(location));
   }
 
-  /// returns the point of the mesh that lies at `p`: on the sphere, in the direction of `p`; in the disk, if `p` is outside of the image, at the point
-  /// of its border that is nearest to `p`. About O(log n), where points do not crowd beyond the resolution of `double`. On an edge, any of its
+  /// returns the point of the mesh that lies at `p`: on the sphere, in the direction of `p`; in the disk, if `p` is outside of the image, at the
+  /// point of its border that is nearest to `p`. About O(log n), where points do not crowd beyond the resolution of `double`. On an edge, any of its
   /// faces is chosen, but always the same one.
   /// \pre the locator is a success; `p` is finite, and not 0 if it is a direction
   Face_location surface_point(const Image_point& p) const { return preimage(Image::vector(p)); }

@@ -22,7 +22,7 @@ namespace internal {
 class Text_buffer
 {
 public:
-  explicit Text_buffer(std::ostream& out) : m_out(out), m_text(block_size) {}
+  explicit Text_buffer(std::ostream& out) : out_(out), text_(block_size) {}
   ~Text_buffer() { flush(); }
   Text_buffer(const Text_buffer&) = delete;
   Text_buffer& operator=(const Text_buffer&) = delete;
@@ -30,7 +30,7 @@ public:
   Text_buffer& operator<<(char c)
   {
     make_room();
-    m_text[m_size++] = c;
+    text_[size_++] = c;
     return *this;
   }
 
@@ -42,8 +42,8 @@ public:
   {
     make_room();
     const std::to_chars_result end =
-      std::to_chars(m_text.data() + m_size, m_text.data() + m_text.size(), x);
-    m_size = static_cast<std::size_t>(end.ptr - m_text.data());
+      std::to_chars(text_.data() + size_, text_.data() + text_.size(), x);
+    size_ = static_cast<std::size_t>(end.ptr - text_.data());
     return *this;
   }
 
@@ -52,20 +52,20 @@ public:
     if(size > block_size)
     {
       flush();
-      m_out.write(text, static_cast<std::streamsize>(size));
+      out_.write(text, static_cast<std::streamsize>(size));
       return *this;
     }
-    if(m_size + size > m_text.size())
+    if(size_ + size > text_.size())
       flush();
-    std::memcpy(m_text.data() + m_size, text, size);
-    m_size += size;
+    std::memcpy(text_.data() + size_, text, size);
+    size_ += size;
     return *this;
   }
 
   void flush()
   {
-    m_out.write(m_text.data(), static_cast<std::streamsize>(m_size));
-    m_size = 0;
+    out_.write(text_.data(), static_cast<std::streamsize>(size_));
+    size_ = 0;
   }
 
 private:
@@ -74,13 +74,13 @@ private:
 
   void make_room()
   {
-    if(m_size + longest_number > m_text.size())
+    if(size_ + longest_number > text_.size())
       flush();
   }
 
-  std::ostream& m_out;
-  std::vector<char> m_text;
-  std::size_t m_size = 0;
+  std::ostream& out_;
+  std::vector<char> text_;
+  std::size_t size_ = 0;
 };
 
 } // namespace internal

@@ -70,7 +70,7 @@ public:
     if(retriangulation != Retriangulation::ALWAYS)
     {
       result = on_fixed_triangulation(apex, retriangulation == Retriangulation::NEVER, accept);
-      if(retriangulation == Retriangulation::NEVER || is_success(result.status) || !may_be_helped_by_flips(result.status))
+      if(retriangulation == Retriangulation::NEVER || is_success(result.status) || !is_worth_another_try(result.status))
       {
         result.statistics.seconds.solve = stopwatch.seconds();
         return result;
@@ -89,7 +89,8 @@ public:
   }
 
 private:
-  static bool may_be_helped_by_flips(Status status)
+  // Whether a convex polyhedron, which there is for every surface, may be found in another way: with flips, or from another apex.
+  static bool is_worth_another_try(Status status)
   {
     return status == Status::DEGENERATE_METRIC || status == Status::ITERATIONS_EXHAUSTED || status == Status::SINGULAR_PROBLEM
         || status == Status::ANGLE_OUT_OF_RANGE || status == Status::NO_ANGLE_LEFT || status == Status::NOT_INJECTIVE;
@@ -142,7 +143,7 @@ private:
     for(Index a : apices)
     {
       result = judged(find.convex(start, flips, a, whole_axis(a)), accept);
-      if(is_success(result.status) || !may_be_helped_by_flips(result.status))
+      if(is_success(result.status) || !is_worth_another_try(result.status))
         return result;
     }
     return result;

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 namespace CGAL {
 namespace Conformal_equivalence {
@@ -71,20 +70,6 @@ bool is_counterclockwise(const std::array<NT, 3>& p, const std::array<NT, 3>& q,
   if(!has_finite_coordinates(p) || !has_finite_coordinates(q) || !has_finite_coordinates(r))
     return false;
   return determinant(p, q, r) > NT(16 * std::numeric_limits<NT>::epsilon() * determinant_bound(p, q, r));
-}
-
-// Whether the polygon is strictly convex, as one of great arcs, and counterclockwise.
-template <typename NT>
-bool is_convex_spherical_polygon(const std::vector<std::array<NT, 3> >& p)
-{
-  const std::size_t n = p.size();
-  for(std::size_t i = 0; i < n; ++i)
-    if(!is_counterclockwise(p[i], p[(i + 1) % n], p[(i + 2) % n]))
-      return false;
-  for(std::size_t i = 2; i + 2 < n; ++i)
-    if(!is_counterclockwise(p[0], p[i], p[i + 1]))
-      return false;
-  return true;
 }
 
 // The area of a spherical triangle, negative if it is clockwise (A. van Oosterom and J. Strackee, 1983).
