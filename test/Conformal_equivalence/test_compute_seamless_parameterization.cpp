@@ -10,6 +10,8 @@
 #include "include/flattened_meshes.h"
 #include "include/test_meshes.h"
 
+#include <CGAL/Conformal_equivalence/compute_cut_graph.h>
+#include <CGAL/Conformal_equivalence/compute_layout.h>
 #include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 
