@@ -47,9 +47,7 @@ if(CONFORMAL_EQUIVALENCE_PRECOMPILE_HEADERS)
       get_target_property(_type ${_program} TYPE)
       if(_type MATCHES "^(EXECUTABLE|STATIC_LIBRARY|OBJECT_LIBRARY)$")
         target_precompile_headers(${_program} REUSE_FROM precompiled_headers)
-        if(NOT _type STREQUAL "EXECUTABLE") # those of CGAL's macro have it
-          target_compile_definitions(${_program} PRIVATE "CGAL_DATA_DIR=\"${CGAL_DATA_DIR}\"")
-        endif()
+        target_compile_definitions(${_program} PRIVATE "CGAL_DATA_DIR=\"${CGAL_DATA_DIR}\"") # CGAL's macro gives it to most
       endif()
     endforeach()
   endforeach()

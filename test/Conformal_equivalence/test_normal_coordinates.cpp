@@ -10,6 +10,7 @@
 #include "include/boost_test.h"
 #include "include/test_meshes.h"
 
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/normal_coordinates.h>
 
 #include <algorithm>
