@@ -23,7 +23,7 @@
 
 #include <CGAL/assertions.h>
 
-#include <boost/pending/disjoint_sets.hpp>
+#include <CGAL/Union_find.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -35,25 +35,32 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// Disjoint sets of indices, each at first on its own.
+// Disjoint sets of indices, each at first on its own. (Boost's sets do not compile after some of its graphs have been included.)
 class Partition
 {
   typedef std::uint32_t Index;
-  boost::disjoint_sets_with_storage<> sets_;
+  typedef CGAL::Union_find<Index> Sets;
+  Sets sets_;
+  std::vector<Sets::handle> handle_; // by index
 
 public:
-  explicit Partition(std::size_t n) : sets_(n) {}
+  explicit Partition(std::size_t n)
+  {
+    handle_.reserve(n);
+    for(std::size_t i = 0; i < n; ++i)
+      handle_.push_back(sets_.make_set(Index(i)));
+  }
 
   // A member of the set of `i`, the same for all of its members.
-  Index find(Index i) { return Index(sets_.find_set(std::size_t(i))); }
+  Index find(Index i) { return *sets_.find(handle_[i]); }
 
   // Returns `false` iff they were one set before.
   bool unite(Index i, Index j)
   {
-    const std::size_t a = sets_.find_set(std::size_t(i)), b = sets_.find_set(std::size_t(j));
-    if(a != b)
-      sets_.link(a, b);
-    return a != b;
+    const bool are_two = !sets_.same_set(handle_[i], handle_[j]);
+    if(are_two)
+      sets_.unify_sets(handle_[i], handle_[j]);
+    return are_two;
   }
 };
 
