@@ -107,10 +107,17 @@ all_headers_everywhere()
   return $status
 }
 
-# sanitized_tests OPTION...: all tests that are not slow, with address and undefined-behaviour sanitizers
+# The tests that are worth most with sanitizers: those of what works on arrays of indices.
+sanitized_core=(test_{normal_coordinates,common_refinement,Surface_locator,retriangulation,flatten_retriangulated,flatten_any_topology,compute_cut_graph,repair_locally,map_to_sphere,map_to_disk,Surface_correspondence,place_cones,compute_seamless_parameterization,fuzz_flatten_mesh})
+
+# sanitized_tests TESTS OPTION...: the tests named in one word, or, if it is empty, all that are not slow, with address and
+# undefined-behaviour sanitizers
 sanitized_tests()
 {
+  local tests="$1" only=()
+  shift
+  [ -z "$tests" ] || only=(-R "^($(echo "$tests" | tr ' ' '|'))\$")
   configure sanitized sanitized "$@"
-  compile sanitized
-  CONFORMAL_EQUIVALENCE_SKIP_SLOW_TESTS=1 run_tests sanitized -L '^test$'
+  compile sanitized $tests
+  CONFORMAL_EQUIVALENCE_SKIP_SLOW_TESTS=1 run_tests sanitized -L '^test$' ${only[@]+"${only[@]}"}
 }
