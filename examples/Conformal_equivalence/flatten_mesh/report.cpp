@@ -32,20 +32,6 @@ std::string count(std::size_t n, const char* singular, const char* plural)
 
 namespace {
 
-// The largest amount of memory that the program has had, 0 if unknown.
-std::size_t peak_memory_bytes()
-{
-#if defined(__APPLE__)
-  rusage usage;
-  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t>(usage.ru_maxrss) : 0;
-#elif defined(__unix__)
-  rusage usage;
-  return getrusage(RUSAGE_SELF, &usage) == 0 ? std::size_t(1024) * static_cast<std::size_t>(usage.ru_maxrss) : 0;
-#else
-  return 0;
-#endif
-}
-
 double in_degrees(double angle) { return angle / CGAL_PI * 180; }
 
 const char* injective_text(const Figures& figures)
@@ -56,11 +42,6 @@ const char* injective_text(const Figures& figures)
     case CE::Injectivity::NO:  return "no";
     default:                   return "undecided";
   }
-}
-
-std::string status_text(const Figures& figures)
-{
-  return figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? "CONVERGED_TO_ROUNDING" : "OK";
 }
 
 // What a disk without cones does not have.
@@ -82,18 +63,6 @@ void add_topology(const Report& report, Lines& lines)
   for(const auto& lattice : report.lattices)
     lines.emplace_back(report.lattices.size() == 1 ? "tau" : text("tau at face ", lattice.face),
                        text(lattice.tau[0], " + ", lattice.tau[1], " i"));
-}
-
-const char* mode_text(const Options& options)
-{
-  if(options.local_repair)
-    return "local repair";
-  switch(options.retriangulation)
-  {
-    case CE::Retriangulation::WHEN_NEEDED: return "when-needed";
-    case CE::Retriangulation::ALWAYS:      return "always";
-    default:                               return "never";
-  }
 }
 
 const char* class_text(const CE::Statistics& s)
@@ -194,6 +163,37 @@ void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, 
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
 namespace {
+
+// The largest amount of memory that the program has had, 0 if unknown.
+std::size_t peak_memory_bytes()
+{
+#if defined(__APPLE__)
+  rusage usage;
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::size_t>(usage.ru_maxrss) : 0;
+#elif defined(__unix__)
+  rusage usage;
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? std::size_t(1024) * static_cast<std::size_t>(usage.ru_maxrss) : 0;
+#else
+  return 0;
+#endif
+}
+
+std::string status_text(const Figures& figures)
+{
+  return figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? "CONVERGED_TO_ROUNDING" : "OK";
+}
+
+const char* mode_text(const Options& options)
+{
+  if(options.local_repair)
+    return "local repair";
+  switch(options.retriangulation)
+  {
+    case CE::Retriangulation::WHEN_NEEDED: return "when-needed";
+    case CE::Retriangulation::ALWAYS:      return "always";
+    default:                               return "never";
+  }
+}
 
 nlohmann::ordered_json json_cones(const Report& report)
 {
