@@ -81,6 +81,7 @@ all_headers()
   local suite="$1" compiler="$2" options=() name="headers-$1-$2"
   [ "$suite" = installed ] || mapfile -t options < <(later_cgal_options "$suite")
   configure "$name" test -DCMAKE_CXX_FLAGS_RELEASE=-O0 "-DCMAKE_CXX_COMPILER=$compiler" \
+    -DCONFORMAL_EQUIVALENCE_BUILD_COMPILED_LIBRARY=OFF -DCONFORMAL_EQUIVALENCE_PRECOMPILE_HEADERS=OFF \
     ${options[@]+"${options[@]}"} > /dev/null
   logged "$build/$name.build.log" cmake --build "$build/$name" --target all_headers_once
   echo "   $compiler: $("$build/$name/all_headers_once")"
