@@ -12,9 +12,4 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_COMPILED_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_COMPILED_H
 
-// The library is compiled with the same settings that change the layout of classes, or not at all.
-#if defined(CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED) && defined(CGAL_CONFORMAL_EQUIVALENCE_HEADER_ONLY)
-#error "CGAL_CONFORMAL_EQUIVALENCE_HEADER_ONLY is defined, but the program links Conformal_equivalence::compiled."
-#endif
-
 #endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_COMPILED_H

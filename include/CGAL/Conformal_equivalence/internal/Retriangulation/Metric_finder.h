@@ -315,10 +315,7 @@ private:
       return false;
     }
     const Feasibility feasibility = make_feasible(triangulation_, pieces_, conditions, triangulation_is_fixed);
-    result.status = feasibility.status;
-    result.amount = feasibility.amount;
-    result.vertices = feasibility.vertices;
-    result.faces = feasibility.faces;
+    result.set_outcome(feasibility);
     result.statistics.angle_defect_spread = feasibility.angle_defect_spread;
     scales_.set_resting(feasibility.rests_on_bounds);
     return feasibility.status == Status::OK;

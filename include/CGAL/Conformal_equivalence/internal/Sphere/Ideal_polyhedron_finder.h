@@ -193,13 +193,7 @@ private:
   {
     const Statistics before = result.statistics;
     result.statistics = metric.statistics;
-    result.statistics.number_of_iterations += before.number_of_iterations;
-    result.statistics.number_of_linear_iterations += before.number_of_linear_iterations;
-    result.statistics.number_of_factorizations += before.number_of_factorizations;
-    result.statistics.number_of_evaluations += before.number_of_evaluations;
-    result.statistics.number_of_filter_failures += before.number_of_filter_failures;
-    result.statistics.number_of_exact_decisions += before.number_of_exact_decisions;
-    result.statistics.seconds.flips += before.seconds.flips;
+    result.statistics += before;
     result.status = metric.status;
     result.amount = metric.amount;
     result.vertices = metric.vertices;
