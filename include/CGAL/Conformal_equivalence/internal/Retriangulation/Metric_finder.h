@@ -337,7 +337,13 @@ private:
       result.status = newton(u);
     }
     if(result.status == Status::OK)
-      Wide_refinement<NT>(energy, linear_, scales_, conditions, bounds, options.gradient_tolerance).run(u, result);
+    {
+      Wide_refinement<NT> last_steps(energy, linear_, scales_, conditions, bounds, options.gradient_tolerance);
+      if(options.is_estimate)
+        last_steps.begin(u, result);
+      else
+        last_steps.run(u, result);
+    }
     if(is_success(result.status) && conditions.has_bounds())
       scales_.settle(conditions, result.scale_factors);
     if(is_success(result.status))

@@ -54,22 +54,32 @@ public:
     : energy_(energy), linear_(linear), scales_(scales), conditions_(conditions), bounds_(bounds), tolerance_(tolerance)
   {}
 
+  // The factors that Newton's method has found.
+  void begin(Vertex_vector& u, Metric& result) const
+  {
+    scales_.center(u);
+    begin_at(conditions_, u, result.scale_factors);
+  }
+
   // The last steps; then edges are flipped that are not Delaunay by so little that rounding has hidden it on the way.
   // Angle sums hardly differ between both triangulations, but as there may be needles they are made right again.
-  // A round flips what the one before has uncovered: one or two are usual. Where there are flips after `most_rounds` of them, lengths are so
+  // A round flips what the one before has uncovered: one or two are usual. Among cocircular vertices the least step flips some edge; therefore, after
+  // `most_careful_rounds`, angle sums within the tolerance are not touched any more. Where there are flips after `most_rounds`, lengths are so
   // inaccurate that the triangulation is not to be had, and the angle sums are those of another one.
   void run(Vertex_vector& u, Metric& result)
   {
     const std::size_t steps = result.statistics.residuals.size();
-    const int most_rounds = 10;
+    const int most_careful_rounds = 3, most_rounds = 10;
+    begin(u, result);
     for(int round = 0; round < most_rounds; ++round)
     {
+      const double goal = round < most_careful_rounds ? careful_goal() : tolerance_;
       result.statistics.residuals.resize(steps);
       result.status = Status::OK;
       if(bounds_.empty())
-        refine(conditions_, u, result);
+        refine(conditions_, goal, result);
       else
-        refine_within_bounds(u, result);
+        refine_within_bounds(goal, u, result);
       if(!is_success(result.status) || !energy_.make_delaunay(result.scale_factors, u))
         return;
     }
@@ -83,15 +93,9 @@ private:
   // gradients, every system is solved for as many digits as can be gained. Where that comes to nothing before the tolerance_ is
   // reached, the matrix is that of the wide metric, factorized anew; then all of the linear algebra runs in the wide type.
   // A step with error e^3 in s is as good as any: what counts is the s that comes out.
-  void refine(const Conformal_conditions<NT>& conditions, Vertex_vector& u, Metric& result)
+  void refine(const Conformal_conditions<NT>& conditions, double goal, Metric& result)
   {
-    scales_.center(u);
     std::vector<Wide_number>& s = result.scale_factors;
-    s.resize(u.size());
-    for(std::uint32_t v = 0; v < u.size(); ++v)
-      s[v] = half_exponential(conditions.is_fixed(v) ? Wide_number(conditions.log_scale_factor(v)) : Wide_number(u[v]));
-
-    const double goal = 1e-4 * tolerance_; // so that layouts are not spoiled by the sum of all residuals
     Wide_number known_floor(0);
     const auto floor = [&]
     {
@@ -154,6 +158,16 @@ private:
                                                                                    : Status::ITERATIONS_EXHAUSTED;
   }
 
+  // Smaller than asked for, so that layouts are not spoiled by the sum of all residuals.
+  double careful_goal() const { return 1e-4 * tolerance_; }
+
+  static void begin_at(const Conformal_conditions<NT>& conditions, const Vertex_vector& u, std::vector<Wide_number>& s)
+  {
+    s.resize(u.size());
+    for(std::uint32_t v = 0; v < u.size(); ++v)
+      s[v] = half_exponential(conditions.is_fixed(v) ? Wide_number(conditions.log_scale_factor(v)) : Wide_number(u[v]));
+  }
+
   // Multiplies `s` by e^{d / 2} for the d of a step of Newton's method with the weights `w`. Returns whether there was a factor for it.
   bool add_newton_step(const std::vector<double>& w, const Scaled_vector& residual, double accuracy,
                        Metric& result, std::vector<Wide_number>& s)
@@ -201,7 +215,7 @@ private:
 
   // The same with some of the bounds active, as the solution has them: where Newton's method could not tell by
   // rounding, the wide type does.
-  void refine_within_bounds(Vertex_vector& u, Metric& result)
+  void refine_within_bounds(double goal, Vertex_vector& u, Metric& result)
   {
     std::vector<char> active(u.size(), 0);
     for(std::uint32_t v = 0; v < u.size(); ++v)
@@ -217,7 +231,8 @@ private:
           equalities.fix_log_scale_factor(v, NT(conditions_.lower_bound(v)));
       linear_.hold(active);
       result.status = Status::OK;
-      refine(equalities, u, result);
+      begin_at(equalities, u, result.scale_factors);
+      refine(equalities, goal, result);
       if(!is_success(result.status) || !exchange_bounds(result, active))
         return;
       for(std::uint32_t v = 0; v < u.size(); ++v)

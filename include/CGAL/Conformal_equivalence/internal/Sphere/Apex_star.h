@@ -22,6 +22,15 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// How far the conditions of the link may be violated before it is changed. Vertices that lie on one circle with the apex, as on every face of a
+// solid that has more than three corners, meet their conditions with equality, up to rounding on either side.
+struct Link_bounds
+{
+  double short_of_long; // a link edge is taken in if it is longer than the sum of the other two sides but for this part of it
+  double reflex;        // a neighbour is let go if the disk has an angle there that is by this larger than pi
+  int most_releases;    // of one vertex
+};
+
 // The triangles at the apex of a polyhedron that is being looked for, and the flips that change them: see Ideal_polyhedron_finder.h.
 template <typename NT>
 class Apex_star
@@ -33,8 +42,10 @@ class Apex_star
 public:
   // Flips the triangulation of `polyhedron`, and writes the flips down there.
   explicit Apex_star(Ideal_polyhedron<NT>& polyhedron)
-    : triangulation_(polyhedron.triangulation), flips_(polyhedron.flips), apex_(polyhedron.apex)
-  {}
+    : triangulation_(polyhedron.triangulation), flips_(polyhedron.flips), releases_(polyhedron.number_of_releases), apex_(polyhedron.apex)
+  {
+    releases_.resize(triangulation_.number_of_vertices(), 0);
+  }
 
   // Makes the triangles ready for what follows: there is one edge from the apex to each of at least three neighbours, where that is possible.
   void prepare()
@@ -54,11 +65,11 @@ public:
 
   // Flips link edges that are too long, and edges of the apex to reflex angles, where no triangle of them has changed before. Returns whether there
   // was anything to do.
-  bool exchange(const Punctured_surface<NT>& rest, const Metric& metric)
+  bool exchange(const Punctured_surface<NT>& rest, const Metric& metric, const Link_bounds& bounds)
   {
     std::vector<char> is_touched(metric.triangulation.number_of_vertices(), 0);
-    const bool is_wider = take_in_long_edges(rest, metric, is_touched);
-    const bool is_narrower = let_go_reflex_neighbours(metric, is_touched);
+    const bool is_wider = take_in_long_edges(rest, metric, bounds, is_touched);
+    const bool is_narrower = let_go_reflex_neighbours(metric, bounds, is_touched);
     return is_wider || is_narrower;
   }
 
@@ -137,7 +148,7 @@ private:
   }
 
   // Link edges jk with a triangle jkm in which they are longer than the other two sides become edges pm.
-  bool take_in_long_edges(const Punctured_surface<NT>& rest, const Metric& metric, std::vector<char>& is_touched)
+  bool take_in_long_edges(const Punctured_surface<NT>& rest, const Metric& metric, const Link_bounds& bounds, std::vector<char>& is_touched)
   {
     const double rounding_at_neighbour = 1e-14; // a second edge to a neighbour would be flipped away again: there rounding is not to decide
     const Triangulation& disk = metric.triangulation;
@@ -146,8 +157,8 @@ private:
     for(Index e = 0; e < disk.number_of_edges(); ++e)
     {
       const Index h = disk.edge_halfedge(e);
-      const double rounding = is_neighbour[disk.apex(h)] ? rounding_at_neighbour : 0;
-      if(!disk.is_border(h) || !triangulation_.is_flippable(rest.original_edge[e]) || !is_too_long(metric, h, rounding))
+      const double tolerance = is_neighbour[disk.apex(h)] ? rounding_at_neighbour : -bounds.short_of_long;
+      if(!disk.is_border(h) || !triangulation_.is_flippable(rest.original_edge[e]) || !is_too_long(metric, h, tolerance))
         continue;
       flip(rest.original_edge[e]);
       is_touched[disk.origin(h)] = is_touched[disk.target(h)] = 1;
@@ -166,14 +177,14 @@ private:
     return result;
   }
 
-  static bool is_too_long(const Metric& metric, Index h, double rounding)
+  static bool is_too_long(const Metric& metric, Index h, double tolerance)
   {
     const Triangulation& t = metric.triangulation;
-    return metric.wide_scaled_length(t.next(h)) + metric.wide_scaled_length(t.previous(h)) < (1 - rounding) * metric.wide_scaled_length(h);
+    return metric.wide_scaled_length(t.next(h)) + metric.wide_scaled_length(t.previous(h)) < (1 - tolerance) * metric.wide_scaled_length(h);
   }
 
   // Edges pi where the disk has an angle above pi at i are flipped away.
-  bool let_go_reflex_neighbours(const Metric& metric, std::vector<char>& is_touched)
+  bool let_go_reflex_neighbours(const Metric& metric, const Link_bounds& bounds, std::vector<char>& is_touched)
   {
     const Triangulation& t = triangulation_;
     std::vector<Index> spokes;
@@ -185,24 +196,20 @@ private:
       if(h == t.null_index || !t.is_flippable(e))
         continue;
       const Index i = t.target(h), j = t.apex(h), k = t.apex(t.twin(h));
-      if(metric.triangulation.is_isolated_vertex(i) || is_touched[i] || is_touched[j] || is_touched[k] || !is_reflex(metric, i))
+      if(metric.triangulation.is_isolated_vertex(i) || is_touched[i] || is_touched[j] || is_touched[k]
+         || releases_[i] >= bounds.most_releases || !(angle_sum_at(metric, i) > Number_constants<double>::pi() + bounds.reflex))
         continue;
       flip(e);
+      ++releases_[i];
       is_touched[i] = is_touched[j] = is_touched[k] = 1;
       is_changed = true;
     }
     return is_changed;
   }
 
-  // Is the angle of the disk above pi, by more than the residual lets it be?
-  static bool is_reflex(const Metric& metric, Index v)
-  {
-    const double rounding = 1e-13; // of an angle sum whose residual is as small as `double` lets it be
-    return angle_sum_at(metric, v) > Number_constants<double>::pi() + rounding;
-  }
-
   Triangulation& triangulation_;
   std::vector<Index>& flips_;
+  std::vector<int>& releases_; // by vertex
   const Index apex_;
 };
 

@@ -31,6 +31,7 @@ struct Ideal_polyhedron
   std::vector<Index> flips;                   // how it came from the one given
   std::vector<Light_vector<Wide> > vectors;   // by vertex; 0 for isolated ones
   std::size_t number_of_exchanges = 0;        // how often the link of the apex was changed
+  std::vector<int> number_of_releases;        // by vertex: how often it was let go from the link
   Status status = Status::OK;
   double amount = 0;
   std::vector<Index> vertices, faces;         // at fault; faces of the triangulation given, if it was not flipped

@@ -23,6 +23,16 @@
 //  - an edge ip where the disk has an angle above pi is flipped, too: i is not held any more.
 // The link of a vertex with well-shaped triangles hardly ever changes.
 //
+// Ties. Where m lies on one circle with p, j and k, the triangle jkm is flat, with an angle of pi at m, and rounding decides which of both
+// conditions is violated. Neither matters: every triangulation that Ptolemy's relation leads to stands for the same ideal hyperbolic polyhedron, so
+// that any triangulation of a cell with more than three corners gives the same points, and one that is concave by d at an edge moves them by
+// the order of d^2, as the energy is twice continuously differentiable. A flat triangle in the disk, however, makes the problem as good as
+// insoluble: its angles change like the root of its lengths. So m is taken in as soon as jkm is nearly flat, and let go only where
+// the angle is larger than pi by more than what that makes it; and as no vertex is let go more than a few times, the exchange ends. It is
+// first done with angle sums that are right to 1e-6, as accurately as a nearly flat triangle lets them be in `double`. Then all of them are made
+// right, and the link is settled by bounds that are as narrow as that allows; last, without any, and if that is not possible, what was found before
+// is the result.
+//
 // A surface with one border is treated in the same way with an apex on the border, where all other angles but those of the link are to be pi: the
 // disk is then the part above a straight line of one that is symmetric about it, and the border becomes a circle.
 
@@ -97,37 +107,85 @@ public:
     result.apex = apex;
     result.triangulation = std::move(start);
     result.flips = std::move(flips);
+    result.unit = typical_spoke(result.triangulation, apex);
+    Metric metric;
+    settle_link(1e-3, Link_bounds{1e-6, 3e-2, most_releases_}, result, metric);
+    if(is_success(result.status))
+      settle_link(rough_tolerance_, Link_bounds{1e-7, 1e-2, most_releases_}, result, metric);
+    if(is_success(result.status))
+      settle_precisely(result, metric);
+    if(is_success(result.status))
+      place(metric, axis, result);
+    return result;
+  }
+
+private:
+  // With all the digits there are, and where these are not to be had, as the user wants it.
+  void settle_precisely(Polyhedron& result, Metric& metric) const
+  {
+    const Link_bounds bounds{0, 1e-5, 2 * most_releases_};
+    const Polyhedron rough = result;
+    const Metric rough_metric = metric;
+    settle_link(precise_options().gradient_tolerance, bounds, result, metric);
+    if(!is_success(result.status) && result.status != Status::STOPPED_BY_VISITOR)
+    {
+      const Statistics statistics = result.statistics;
+      result = rough;
+      result.statistics = statistics;
+      metric = rough_metric;
+      settle_link(options_.gradient_tolerance, bounds, result, metric);
+    }
+    if(is_success(result.status))
+      settle_strictly(result, metric);
+  }
+
+  // Lets go what is reflex by more than rounding, if the polyhedron without these edges is found, too.
+  void settle_strictly(Polyhedron& result, Metric& metric) const
+  {
+    const Link_bounds bounds{0, 1e-13, 3 * most_releases_}; // an angle sum whose residual is as small as `double` lets it be
+    Polyhedron strict = result;
+    Metric strict_metric = metric;
+    if(!Apex_star<NT>(strict).exchange(Punctured_surface<NT>(result.triangulation, result.apex), metric, bounds))
+      return;
+    settle_link(precise_options().gradient_tolerance, bounds, strict, strict_metric);
+    if(!is_success(strict.status))
+      return;
+    result = std::move(strict);
+    metric = std::move(strict_metric);
+  }
+
+  // Flattens the rest of the surface and changes the link in turn, until there is nothing to change. Begins at the factors of `metric`, if it has any.
+  void settle_link(double tolerance, const Link_bounds& bounds, Polyhedron& result, Metric& metric) const
+  {
     Solver_options options = precise_options();
+    options.gradient_tolerance = tolerance;
     options.retriangulation = Retriangulation::WHEN_NEEDED;
     options.border_edges = Border_edges::KEPT;
     options.has_come_from_flips = true;
+    options.is_estimate = tolerance >= rough_tolerance_;
     for(int round = 0; round < most_exchanges_; ++round)
     {
       Apex_star<NT> star(result);
       star.prepare();
-      if(round == 0)
-        result.unit = typical_spoke(result.triangulation, apex);
-      const Punctured_surface<NT> rest(result.triangulation, apex);
+      const Punctured_surface<NT> rest(result.triangulation, result.apex);
       if(!rest.is_disk())
-        return refused(std::move(result), Status::SINGULAR_PROBLEM);
-      const Metric metric = solve(rest.triangulation, conditions(result, rest.triangulation), options);
+      {
+        result = refused(std::move(result), Status::SINGULAR_PROBLEM);
+        return;
+      }
+      options.initial_log_scale_factors = rounded(metric.log_scale_factors);
+      metric = solve(rest.triangulation, conditions(result, rest.triangulation), options);
       take_over(metric, result);
       if(!is_success(metric.status) && metric.status != Status::DEGENERATE_METRIC)
-        return result;
+        return;
       star.repeat_flips(rest, metric);
-      if(!star.exchange(rest, metric))
-      {
-        if(is_success(result.status))
-          place(metric, axis, result);
-        return result;
-      }
+      if(!star.exchange(rest, metric, bounds))
+        return;
       ++result.number_of_exchanges;
-      options.initial_log_scale_factors = rounded(metric.log_scale_factors);
     }
-    return refused(std::move(result), Status::ITERATIONS_EXHAUSTED);
+    result = refused(std::move(result), Status::ITERATIONS_EXHAUSTED);
   }
 
-private:
   static Polyhedron refused(Polyhedron result, Status status)
   {
     result.status = status;
@@ -210,7 +268,11 @@ private:
     placement(axis, result);
   }
 
-  // The link hardly ever changes, and each exchange brings it nearer to the minimum: more rounds than this mean that rounding moves it to and fro.
+  // Angle sums that flat triangles allow in `double`, see above.
+  static constexpr double rough_tolerance_ = 1e-6;
+  // The link hardly ever changes, and each exchange brings it nearer to the minimum: that a vertex comes and goes more often, or that there are more
+  // rounds, means that rounding moves it to and fro.
+  static constexpr int most_releases_ = 4;
   static constexpr int most_exchanges_ = 100;
 
   const Triangulation& given_;
