@@ -35,8 +35,8 @@ struct Solver_options
   /// Whether the triangulation is one that Ptolemy flips have led to: flips then go on from the beginning, and it is not tried as it is.
   /// (No named parameter says so.)
   bool has_come_from_flips = false;
-  /// Whether what Newton's method finds in `double` is enough: angle sums are within the tolerance as it measures them, and no last steps are made with
-  /// wider numbers. For problems that only prepare another one. (No named parameter says so.)
+  /// Whether what Newton's method finds in `double` is enough: angle sums are within the tolerance as it measures them, and no last steps
+  /// are made with wider numbers. For problems that only prepare another one. (No named parameter says so.)
   bool is_estimate = false;
   std::vector<double> initial_log_scale_factors; ///< where to begin, by vertex; empty: at the last solution
   internal::Any_visitor visitor;                 ///< is told the progress and may stop it

@@ -154,7 +154,8 @@ private:
     metric = std::move(strict_metric);
   }
 
-  // Flattens the rest of the surface and changes the link in turn, until there is nothing to change. Begins at the factors of `metric`, if it has any.
+  // Flattens the rest of the surface and changes the link in turn, until there is nothing to change. Begins at the factors of `metric`,
+  // if it has any.
   void settle_link(double tolerance, const Link_bounds& bounds, Polyhedron& result, Metric& metric) const
   {
     Solver_options options = precise_options();
