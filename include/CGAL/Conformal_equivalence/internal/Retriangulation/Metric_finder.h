@@ -346,11 +346,13 @@ private:
     }
     if(is_success(result.status) && conditions.has_bounds())
       scales_.settle(conditions, result.scale_factors);
-    if(is_success(result.status))
+    if(options.is_estimate && result.status == Status::ITERATIONS_EXHAUSTED) // the last u may still tell what is to be changed
+      Wide_refinement<NT>::begin_at(conditions, u, result.scale_factors);
+    if(is_success(result.status) || !result.scale_factors.empty())
       keep(result.scale_factors, conditions, u, result);
     result.statistics.number_of_factorizations = linear_.number_of_factorizations() - factorizations_before;
     result.statistics.number_of_regularized_rows = linear_.number_of_regularized_rows();
-    judge(energy, result);
+    judge(energy, options.is_estimate, result);
   }
 
   // Else the matrix of a component that rests on its bounds is singular.
@@ -410,7 +412,7 @@ private:
 
   // Names the triangles that the metric found breaks: exactly for a solution, as the last
   // evaluation saw them otherwise.
-  static void judge(const Refinable_energy<NT>& energy, Metric& result)
+  static void judge(const Refinable_energy<NT>& energy, bool is_estimate, Metric& result)
   {
     if(is_success(result.status))
     {
@@ -424,7 +426,8 @@ private:
       result.faces = energy.broken_faces();
       result.amount = result.statistics.residual;
     }
-    result.scale_factors.clear();
+    if(!is_estimate)
+      result.scale_factors.clear();
   }
 
   Triangulation triangulation_;

@@ -87,6 +87,14 @@ public:
     result.status = Status::ITERATIONS_EXHAUSTED;
   }
 
+  // e^{u/2}, and the factors that are fixed
+  static void begin_at(const Conformal_conditions<NT>& conditions, const Vertex_vector& u, std::vector<Wide_number>& s)
+  {
+    s.resize(u.size());
+    for(std::uint32_t v = 0; v < u.size(); ++v)
+      s[v] = half_exponential(conditions.is_fixed(v) ? Wide_number(conditions.log_scale_factor(v)) : Wide_number(u[v]));
+  }
+
 private:
   // The last steps, with the residual in the wide type and the linear systems in double: each step gains as many digits as the
   // linear system is solved for, up to the rounding of its matrix. As a residual costs more than an iteration of conjugate
@@ -160,13 +168,6 @@ private:
 
   // Smaller than asked for, so that layouts are not spoiled by the sum of all residuals.
   double careful_goal() const { return 1e-4 * tolerance_; }
-
-  static void begin_at(const Conformal_conditions<NT>& conditions, const Vertex_vector& u, std::vector<Wide_number>& s)
-  {
-    s.resize(u.size());
-    for(std::uint32_t v = 0; v < u.size(); ++v)
-      s[v] = half_exponential(conditions.is_fixed(v) ? Wide_number(conditions.log_scale_factor(v)) : Wide_number(u[v]));
-  }
 
   // Multiplies `s` by e^{d / 2} for the d of a step of Newton's method with the weights `w`. Returns whether there was a factor for it.
   bool add_newton_step(const std::vector<double>& w, const Scaled_vector& residual, double accuracy,

@@ -177,7 +177,7 @@ private:
       options.initial_log_scale_factors = rounded(metric.log_scale_factors);
       metric = solve(rest.triangulation, conditions(result, rest.triangulation), options);
       take_over(metric, result);
-      if(!is_success(metric.status) && metric.status != Status::DEGENERATE_METRIC)
+      if(metric.scale_factors.empty())
         return;
       star.repeat_flips(rest, metric);
       if(!star.exchange(rest, metric, bounds))
