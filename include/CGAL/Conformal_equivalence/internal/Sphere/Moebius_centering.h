@@ -47,7 +47,11 @@ public:
       if(!(weight_[i] < 0.5) && (!is_planar_ || points[i][1] == 0))
         return false;
     double last = 2; // more than any barycentre
-    for(int round = 0; round < most_rounds_; ++round)
+    // Each round spreads out what the one before has brought into the range of `double`; beyond all digits of the points nothing is left to spread.
+    using std::log;
+    const double digits = -static_cast<double>(log(Number(std::numeric_limits<Number>::epsilon())));
+    const int most_rounds = few_rounds_ + static_cast<int>(2 * digits / farthest_);
+    for(int round = 0; round < most_rounds; ++round)
     {
       std::vector<Light_vector<double> > p;
       p.reserve(points.size());
@@ -88,7 +92,8 @@ private:
     const double zero = 1e-15, rounding = 1e-13; // of the gradient: what counts as 0, and below what it need not decrease any more
     Lorentz_matrix<Number> result = Lorentz_matrix<Number>::identity();
     Moments here = moments(points);
-    for(int i = 0; i < most_steps_ && here.first.norm() > zero; ++i)
+    double way = 0;
+    for(int i = 0; i < most_steps_ && here.first.norm() > zero && way < farthest_; ++i)
     {
       Eigen::Vector3d d = step(here);
       for(int halving = 0; ; ++halving)
@@ -105,6 +110,7 @@ private:
         if(!(there.first.norm() < here.first.norm()) && here.first.norm() < rounding)
           return result;
         result = boost_matrix<Number>(translation) * result;
+        way += d.norm();
         points.swap(moved);
         here = there;
         break;
@@ -148,7 +154,8 @@ private:
 
   static constexpr double centred_ = 1e-14;   // of the barycentre
   static constexpr double nearly_centred_ = 1e-12; // if another round would not halve it
-  static constexpr int most_rounds_ = 5;          // more than one for what is lost when points are rounded
+  static constexpr int few_rounds_ = 5;           // more than one for what is lost when points are rounded
+  static constexpr double farthest_ = 12;         // in one round: points that are rounded to `double` are known to e^{2 * 12} / 2^53 then, some 1e-6
   static constexpr int most_steps_ = 200;         // some ten are needed, and more where points crowd, as each goes only so far
   static constexpr int most_halvings_ = 50;       // after that, the step is below what `double` can tell
 
