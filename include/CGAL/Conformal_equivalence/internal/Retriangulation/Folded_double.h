@@ -243,12 +243,12 @@ public:
   std::size_t number_of_probes() const override { return energy_.number_of_probes(); }
 
   // The vertex and its image are moved one after the other, which is the same as both at once unless they are neighbors.
-  double relax(Index v, double target, double x, double most) override
+  double relax(Index v, double target, double x, double most, double close) override
   {
     if(this->surface().is_on_axis(v))
-      return energy_.relax(v, 2 * target, x, most);
-    const double result = energy_.relax(v, target, x, most);
-    energy_.relax(this->surface().image(v), target, result, 0); // moves it there
+      return energy_.relax(v, 2 * target, x, most, close);
+    const double result = energy_.relax(v, target, x, most, close);
+    energy_.relax(this->surface().image(v), target, result, 0, close); // moves it there
     return result;
   }
 

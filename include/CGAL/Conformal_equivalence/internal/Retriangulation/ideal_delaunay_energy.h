@@ -79,11 +79,10 @@ public:
     return is_finite;
   }
 
-  // Moves u at v alone, from x, until the angle sum there is `target` up to some 0.01 radians, or by as much as `most`: E
+  // Moves u at v alone, from x, until the angle sum there is `target` up to `close`, or by as much as `most`: E
   // goes down. Returns the new u. What is known of other vertices is out of date until the next evaluation.
-  double relax(Index v, double target, double x, double most)
+  double relax(Index v, double target, double x, double most, double close)
   {
-    const double close = 0.01;
     Probe here = probe(v, target, x), there = here;
     const double direction = here.residual > 0 ? 1 : -1, last = x + direction * most;
     double step = 0;
@@ -254,7 +253,7 @@ public:
   std::vector<double> sensitivities() const override { return energy_.sensitivities(); }
   bool has_flips() const override { return true; }
   std::size_t number_of_probes() const override { return energy_.number_of_probes(); }
-  double relax(std::uint32_t v, double target, double x, double most) override { return energy_.relax(v, target, x, most); }
+  double relax(std::uint32_t v, double target, double x, double most, double close) override { return energy_.relax(v, target, x, most, close); }
   bool make_delaunay(const Factors& s, const Vertex_vector& u) override { return energy_.make_delaunay(s, u); }
 
 private:

@@ -43,7 +43,7 @@ public:
 
   // Moves u at v alone, from x, until the angle sum there is about `target`, or by as much as `most`. Returns the new u. What is
   // known of other vertices is out of date until the next evaluation. (Only where edges are flipped.)
-  virtual double relax(Index /* v */, double /* target */, double x, double /* most */) { return x; }
+  virtual double relax(Index /* v */, double /* target */, double x, double /* most */, double /* close */) { return x; }
 
   // How often a vertex was looked at by itself, in all calls of relax().
   virtual std::size_t number_of_probes() const { return 0; }

@@ -253,6 +253,8 @@ private:
     {
       const int rounds = 2;
       const double tolerable = 0.3, most = 2; // in radians; in u
+      // Less than what is left to do: or the next step, misled by the flat end of such a jump of the angle, would end at the same place again.
+      const double close = (std::min)(0.01, 0.1 * statistics_.residual);
       for(int round = 0; round < rounds; ++round)
       {
         std::vector<std::pair<double, std::uint32_t> > outliers; // the largest first
@@ -263,7 +265,7 @@ private:
           break;
         std::sort(outliers.begin(), outliers.end());
         for(const auto& outlier : outliers)
-          trial[outlier.second] = energy_.relax(outlier.second, target_[outlier.second], trial[outlier.second], most);
+          trial[outlier.second] = energy_.relax(outlier.second, target_[outlier.second], trial[outlier.second], most, close);
         evaluate(trial, r);
         is_moved = true;
       }
