@@ -9,6 +9,7 @@
 #include "include/flattened_meshes.h"
 #include "include/inscribed_images.h"
 #include "include/output_maps.h"
+#include "include/solids.h"
 
 #include <CGAL/Conformal_equivalence/map_to_disk.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
@@ -787,6 +788,55 @@ BOOST_AUTO_TEST_CASE(single_triangles_at_the_border)
     for(Index i = 0; i < n; ++i)
       BOOST_TEST(std::abs(m[Vertex(1 + n + i)] / m[Vertex(1 + i)] - std::polar(1., pi / n)) <= 1e-12);
   }
+}
+
+// Many corners on one circle or line, exactly or nearly: rounding decides which triangles of such a face are those of the polyhedron.
+BOOST_AUTO_TEST_CASE(bodies_with_cocircular_corners)
+{
+  const double noises[] = { 0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3 };
+  std::size_t number = 0;
+  for(const Index n : { 4, 8, 14, 33 })
+    for(const Named_soup& body : bodies_with_ties(n, false))
+      for(const int shift : { 0, 3 })
+      {
+        const double noise = noises[(number + std::size_t(shift)) % 6];
+        const Retriangulation r = number++ % 2 == 0 ? Retriangulation::ALWAYS : Retriangulation::WHEN_NEEDED;
+        BOOST_TEST_CONTEXT(body.name << " noise " << noise << (r == Retriangulation::ALWAYS ? " always" : ""))
+        {
+          Soup soup = body.soup;
+          add_noise(soup, noise, 1);
+          Maps m(soup);
+          Refinement refinement;
+          const Report report = m.map(params::retriangulation(r).common_refinement(std::ref(refinement)));
+          BOOST_REQUIRE(bool(report));
+          BOOST_TEST(refinement.flipped_faces.empty());
+        }
+      }
+}
+
+// More digits are not to break what works in `double`.
+BOOST_AUTO_TEST_CASE(bodies_with_more_digits)
+{
+  typedef CE::Multiprecision_number Number;
+  const CE::Working_precision precision(200);
+  struct Place // what map_to_disk() makes a point of
+  {
+    std::array<Number, 2> p;
+    Place() = default;
+    Place(const Number& x, const Number& y) : p{{x, y}} {}
+  };
+  for(const double noise : { 0., 1e-9 })
+    for(const Named_soup& body : bodies_with_ties(6, false))
+      if(body.soup.points.size() < 24)
+        BOOST_TEST_CONTEXT(body.name << " noise " << noise)
+        {
+          Soup soup = body.soup;
+          add_noise(soup, noise, 1);
+          const Mesh mesh = surface_mesh<Mesh>(soup);
+          std::map<Vertex, Place> places;
+          const boost::associative_property_map<std::map<Vertex, Place> > in_disk(places);
+          BOOST_TEST(bool(CE::map_to_disk<Number>(mesh, in_disk)));
+        }
 }
 
 BOOST_AUTO_TEST_CASE(overlays)
