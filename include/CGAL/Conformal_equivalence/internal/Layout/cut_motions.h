@@ -49,6 +49,26 @@ find_motion(const Intrinsic_triangulation<NT>& t, const Wedges& wedges, const st
           Complex{Wide(p2.re - moved.re), Wide(p2.im - moved.im)}, length};
 }
 
+// The pieces of each component by themselves, so that work on one component is no work on all of them.
+struct Pieces_of_components
+{
+  std::vector<std::uint32_t> number_in_component; // by piece
+  std::vector<std::uint32_t> number_of_pieces;    // by component
+
+  template <typename NT>
+  Pieces_of_components(const Intrinsic_triangulation<NT>& t, const Surface_components& surface, const std::vector<std::uint32_t>& piece_of_face,
+                       std::uint32_t number_of_all)
+    : number_in_component(number_of_all, t.null_index), number_of_pieces(surface.components.size(), 0)
+  {
+    for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
+    {
+      std::uint32_t& number = number_in_component[piece_of_face[f]];
+      if(number == t.null_index)
+        number = number_of_pieces[surface.component_of_vertex[t.origin(3 * f)]]++;
+    }
+  }
+};
+
 // The motions across the cut edges between faces that are laid out, and the lattices of the flat tori.
 template <typename NT, typename Developed>
 void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut, const Wedges& wedges,
@@ -59,6 +79,7 @@ void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut
   std::uint32_t number_of_pieces = 0;
   const std::vector<std::uint32_t> piece_of_face = pieces_of_faces(t, cut, number_of_pieces);
   const Surface_components surface = connected_components(t);
+  const Pieces_of_components pieces(t, surface, piece_of_face, number_of_pieces);
   std::vector<std::vector<Motion> > motions_of_torus(surface.components.size());
 
   for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
@@ -66,15 +87,20 @@ void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut
     const std::uint32_t h = t.edge_halfedge(e), c = surface.component_of_vertex[t.origin(h)];
     if(!cut[e] || t.is_border(h) || !development.is_laid_out[t.face(h)] || !development.is_laid_out[t.face(t.twin(h))])
       continue;
-    const Motion motion = find_motion(t, wedges, piece_of_face, development, h);
+    Motion motion = find_motion(t, wedges, piece_of_face, development, h);
     layout.transitions.push_back({h, rounded(motion.rotation), rounded(motion.translation)});
-    if(surface.components[c].is_torus())
-      motions_of_torus[c].push_back(motion);
+    if(!surface.components[c].is_torus())
+      continue;
+    motion.from_piece = pieces.number_in_component[motion.from_piece];
+    motion.to_piece = pieces.number_in_component[motion.to_piece];
+    motions_of_torus[c].push_back(motion);
   }
   for(std::size_t c = 0; c < motions_of_torus.size(); ++c)
   {
+    if(motions_of_torus[c].empty())
+      continue;
     const std::uint32_t first = surface.components[c].first_face;
-    const auto basis = period_basis(std::move(motions_of_torus[c]), piece_of_face[first], number_of_pieces);
+    const auto basis = period_basis(std::move(motions_of_torus[c]), pieces.number_in_component[piece_of_face[first]], pieces.number_of_pieces[c]);
     if(!basis.is_complete())
       continue;
     const auto periods = basis.standard_basis();
