@@ -81,6 +81,7 @@ struct Statistics
   Conformal_class conformal_class = Conformal_class::FIXED_TRIANGULATION; ///< which problem was solved
   bool is_doubled = false;                     ///< whether the surface was solved as one half of its double
   std::size_t number_of_flips = 0;             ///< edges flipped
+  std::size_t number_of_resolving_flips = 0;   ///< of these, the first ones, by which faces of no area were resolved in the metric given
   std::size_t number_of_filter_failures = 0;   ///< of the decisions whether to flip, those for which `double` did not do
   std::size_t number_of_exact_decisions = 0;   ///< of these, those that needed rational numbers
   Delaunay_property delaunay = Delaunay_property::NOT_ASKED; ///< whether the triangulation found is Delaunay

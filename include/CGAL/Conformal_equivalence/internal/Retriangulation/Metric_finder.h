@@ -19,6 +19,7 @@
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Folded_double.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/ideal_delaunay_energy.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/resolve_degenerate_faces.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Fixed_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
@@ -112,25 +113,58 @@ private:
   void try_in_turn(const Conditions& conditions, const Solver_options& options, Metric& result)
   {
     const Stopwatch stopwatch;
-    if(options.retriangulation != Retriangulation::ALWAYS && !options.has_come_from_flips)
-    {
-      solve_fixed(conditions, options, result);
-      if(options.retriangulation == Retriangulation::NEVER || !may_be_helped_by_flips(result))
-        return;
-    }
-    const Metric refused = result.status == Status::ANGLE_OUT_OF_RANGE ? result : Metric();
-    discard(result, stopwatch.seconds());
-    solve_flipping(conditions, options, result);
-    if(refused.status == Status::ANGLE_OUT_OF_RANGE && is_balance_violated(result.status))
-    {
-      result = refused; // says more: it may be the reason why the angles sum up to what cannot be
-      return;
-    }
-    if(may_be_helped_by_flips(result) && has_border() && options.border_edges == Border_edges::FLIPPABLE)
+    const bool is_final = try_with_border_kept(conditions, options, result);
+    if(!is_final && may_be_helped_by_flips(result) && has_border() && options.border_edges == Border_edges::FLIPPABLE)
     {
       discard(result, stopwatch.seconds());
       solve_on_double(conditions, options, result);
     }
+  }
+
+  // Where there are faces of no area, on the triangulation without these. Returns whether nothing else is to be tried.
+  bool try_with_border_kept(const Conditions& conditions, const Solver_options& options, Metric& result)
+  {
+    if(options.retriangulation != Retriangulation::WHEN_NEEDED || options.has_come_from_flips || degenerate_faces(triangulation_).empty())
+      return try_fixed_and_flipping(conditions, options, result);
+    Triangulation resolved = triangulation_;
+    const std::vector<Index> flips = resolve_degenerate_faces(resolved);
+    if(flips.empty())
+      return try_fixed_and_flipping(conditions, options, result);
+    exchange_triangulation(resolved);
+    const bool is_final = try_fixed_and_flipping(conditions, options, result);
+    exchange_triangulation(resolved);
+    if(!result.is_retriangulated())
+      result.triangulation = std::move(resolved);
+    result.flips.insert(result.flips.begin(), flips.begin(), flips.end());
+    result.statistics.number_of_flips = result.flips.size();
+    result.statistics.number_of_resolving_flips = flips.size();
+    result.statistics.conformal_class = Conformal_class::GIVEN_TRIANGULATION;
+    return is_final;
+  }
+
+  void exchange_triangulation(Triangulation& other)
+  {
+    std::swap(triangulation_, other);
+    fixed_energy_.reset();
+    linear_has_flips_ = true;
+  }
+
+  bool try_fixed_and_flipping(const Conditions& conditions, const Solver_options& options, Metric& result)
+  {
+    const Stopwatch stopwatch;
+    if(options.retriangulation != Retriangulation::ALWAYS && !options.has_come_from_flips)
+    {
+      solve_fixed(conditions, options, result);
+      if(options.retriangulation == Retriangulation::NEVER || !may_be_helped_by_flips(result))
+        return true;
+    }
+    const Metric refused = result.status == Status::ANGLE_OUT_OF_RANGE ? result : Metric();
+    discard(result, stopwatch.seconds());
+    solve_flipping(conditions, options, result);
+    const bool says_less = refused.status == Status::ANGLE_OUT_OF_RANGE && is_balance_violated(result.status);
+    if(says_less)
+      result = refused; // it may be the reason why the angles sum up to what cannot be
+    return says_less;
   }
 
   // Do the prescribed angles sum up to what cannot be?

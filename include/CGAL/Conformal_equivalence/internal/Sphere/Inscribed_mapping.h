@@ -17,6 +17,7 @@
 #include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/Stages.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/resolve_degenerate_faces.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/best_apices.h>
@@ -67,7 +68,7 @@ public:
     Polyhedron result;
     double discarded = 0;
     std::size_t discarded_iterations = 0;
-    if(retriangulation != Retriangulation::ALWAYS)
+    if(retriangulation == Retriangulation::NEVER || (retriangulation == Retriangulation::WHEN_NEEDED && degenerate_faces(whole_).empty()))
     {
       result = on_fixed_triangulation(apex, retriangulation == Retriangulation::NEVER, accept);
       if(retriangulation == Retriangulation::NEVER || is_success(result.status) || !is_worth_another_try(result.status))
@@ -135,6 +136,8 @@ private:
       result.status = Status::DEGENERATE_METRIC;
       return result;
     }
+    if(retriangulation == Retriangulation::WHEN_NEEDED)
+      flips = resolve_degenerate_faces(start);
     std::vector<Index> apices = best_apices(is_closed() ? start : surface_, most_apices_);
     if(apex != surface_.null_index) // others lead to the same polyhedron, if this one fails
       apices.insert(apices.begin(), apex);

@@ -158,6 +158,19 @@ bool is_triangle_up_to_rounding(const NT& a, const NT& b, const NT& c)
   return holds(a, b, c) && holds(b, c, a) && holds(c, a, b);
 }
 
+/// whether `c` is as long as `a` and `b` together, up to the rounding of lengths: by no more than 4 epsilon (8 * 2^-53) of itself shorter or
+/// longer. Decided exactly
+template <typename NT>
+bool is_degenerate_up_to_rounding(const NT& a, const NT& b, const NT& c)
+{
+  const double sum = static_cast<double>(a) + static_cast<double>(b), longest = static_cast<double>(c);
+  if(sum > (1 + 1e-14) * longest && sum < (std::numeric_limits<double>::max)())
+    return false; // 1e-14 is more than 4 epsilon, and the rounding of both sides
+  const Exact_number tolerated = exact_number(NT(4 * (std::numeric_limits<NT>::epsilon)())) * exact_number(c),
+                     rest = exact_number(a) + exact_number(b) - exact_number(c);
+  return (rest + tolerated).sign() != NEGATIVE && (tolerated - rest).sign() != NEGATIVE;
+}
+
 /// the exact sign of `s_i s_j l_ij + s_k s_i l_ki - s_j s_k l_jk`: whether the scaled edge opposite to vertex `i` is
 /// shorter than (`POSITIVE`), as long as (`ZERO`) or longer than (`NEGATIVE`) the other two together
 /// \param filter_failures if given, is incremented when exact numbers were needed

@@ -1,0 +1,87 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Faces of no area, as collinear points make them, are resolved before anything else: a flip of the longest edge leaves the surface as it is,
+// and no conformal class changes, as a triangulation with such a face has no metric whose class it would be.
+//
+//          k                        k
+//        /   \                    / | \                                 .
+//      j--m---l     --->        j---m---l       m lies on jl: of the face jml there is nothing left
+//        (jl)
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_RESOLVE_DEGENERATE_FACES_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_RESOLVE_DEGENERATE_FACES_H
+
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Length_history.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/flipped_length.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// The longest side of the face of `h`.
+template <typename NT>
+std::uint32_t longest_side(const Intrinsic_triangulation<NT>& t, std::uint32_t h)
+{
+  std::uint32_t longest = h;
+  for(const std::uint32_t g : {t.next(h), t.previous(h)})
+    if(t.halfedge_length(longest) < t.halfedge_length(g))
+      longest = g;
+  return longest;
+}
+
+// Is it a triangle without area, as far as rounded lengths can tell?
+template <typename NT>
+bool is_degenerate_face(const Intrinsic_triangulation<NT>& t, std::uint32_t f)
+{
+  const std::uint32_t h = longest_side(t, 3 * f);
+  return is_degenerate_up_to_rounding(t.halfedge_length(t.next(h)), t.halfedge_length(t.previous(h)), t.halfedge_length(h));
+}
+
+template <typename NT>
+std::vector<std::uint32_t> degenerate_faces(const Intrinsic_triangulation<NT>& t)
+{
+  std::vector<std::uint32_t> result;
+  for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
+    if(is_degenerate_face(t, f))
+      result.push_back(f);
+  return result;
+}
+
+// Flips the longest edges of faces of no area until there are no such faces, but for those whose longest edge cannot be flipped, as on the border.
+// Returns the flips in order. Linear time if there are few.
+template <typename NT>
+std::vector<std::uint32_t> resolve_degenerate_faces(Intrinsic_triangulation<NT>& t)
+{
+  std::vector<std::uint32_t> flips, suspects = degenerate_faces(t);
+  Length_history<NT> lengths(t.lengths());
+  // Each flip makes way for a shorter edge, or hands the face on to a neighbour: where many lie on one line, they could be handed to and fro.
+  const std::size_t most_flips = 10 * suspects.size() + std::size_t(t.number_of_faces());
+  while(!suspects.empty() && flips.size() < most_flips)
+  {
+    const std::uint32_t f = suspects.back();
+    suspects.pop_back();
+    const std::uint32_t h = longest_side(t, 3 * f), g = t.twin(h);
+    NT length;
+    if(!is_degenerate_face(t, f) || !t.is_flippable(t.edge(h)) || !lengths.flip(quad_edges(t, t.edge(h)), Flip_rule::EUCLIDEAN, length))
+      continue;
+    flips.push_back(t.edge(h));
+    t.flip_edge(t.edge(h), length);
+    suspects.push_back(f);
+    suspects.push_back(g / 3);
+  }
+  return flips;
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_RESOLVE_DEGENERATE_FACES_H
