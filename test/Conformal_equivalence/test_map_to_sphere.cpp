@@ -1066,6 +1066,21 @@ BOOST_AUTO_TEST_CASE(bodies_with_all_noises, * slow())
           check_body(body, noise, r);
 }
 
+// A point on an edge that divides only one of both triangles: the surface is that where both are divided.
+BOOST_AUTO_TEST_CASE(faces_of_no_area)
+{
+  Soup given = distorted_sphere(2, .02, 4), divided = given;
+  const std::size_t number = divide_at_middles(given, 9, false);
+  BOOST_TEST(divide_at_middles(divided, 9, true) == number);
+  Maps m(given), n(divided);
+  Refinement refinement;
+  const Report report = m.map(params::spherical_refinement(std::ref(refinement)));
+  BOOST_REQUIRE(bool(report));
+  BOOST_REQUIRE(bool(n.map(Retriangulation::WHEN_NEEDED)));
+  BOOST_TEST(report.statistics.number_of_resolving_flips == number);
+  BOOST_TEST(largest_difference_of_chords(m.points(), n.points()) <= 1e-10); // that of the barycentres is 1e-12, and lengths are rounded
+}
+
 // An edge is concave by 1e-5 at most (Ideal_polyhedron_finder.h); points move by the square of that, times the condition of the problem.
 BOOST_AUTO_TEST_CASE(bodies_are_the_same_however_they_are_numbered)
 {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,6 +159,42 @@ inline Soup renumbered(const Soup& soup, unsigned seed, std::vector<Index>& new_
     for(std::size_t k = 0; k < 3; ++k)
       result.triangles[order[f]][(k + f) % 3] = new_number[soup.triangles[f][k]];
   return result;
+}
+
+// Every so many of the triangles are divided at the middle of their first side, if the triangle beyond that side is not divided as well. That one is
+// either divided at the same point, or left as it is, with a triangle of no area between both. Returns the number of these.
+inline std::size_t divide_at_middles(Soup& soup, std::size_t step, bool is_beyond_divided)
+{
+  std::map<std::pair<Index, Index>, std::size_t> triangle_of; // by side
+  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+    for(std::size_t k = 0; k < 3; ++k)
+      triangle_of[{soup.triangles[f][k], soup.triangles[f][(k + 1) % 3]}] = f;
+  std::vector<char> is_taken(soup.triangles.size(), 0);
+  std::size_t number = 0;
+  for(std::size_t f = 0, n = soup.triangles.size(); f < n; f += step)
+  {
+    const auto [a, b, c] = soup.triangles[f];
+    const auto beyond = triangle_of.find({b, a});
+    if(beyond == triangle_of.end() || is_taken[f] || is_taken[beyond->second])
+      continue;
+    const std::size_t g = beyond->second;
+    is_taken[f] = is_taken[g] = 1;
+    ++number;
+    const Index m = Index(soup.points.size());
+    const Point &p = soup.points[a], &q = soup.points[b];
+    soup.points.push_back({{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2}});
+    soup.triangles[f] = {{a, m, c}};
+    soup.triangles.push_back({{m, b, c}});
+    if(!is_beyond_divided)
+    {
+      soup.triangles.push_back({{a, b, m}});
+      continue;
+    }
+    const Index d = soup.triangles[g][0] + soup.triangles[g][1] + soup.triangles[g][2] - a - b;
+    soup.triangles[g] = {{b, m, d}};
+    soup.triangles.push_back({{m, a, d}});
+  }
+  return number;
 }
 
 struct Named_soup

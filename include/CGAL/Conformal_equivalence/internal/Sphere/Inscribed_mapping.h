@@ -63,12 +63,28 @@ public:
   // The polyhedron that is accepted. On failure its status says why. `apex`: null_index for the best one.
   Polyhedron operator()(Index apex, const Accept& accept) const
   {
+    if(!is_closed() || options_.retriangulation != Retriangulation::WHEN_NEEDED || degenerate_faces(whole_).empty())
+      return find(apex, accept);
+    Triangulation resolved = whole_;
+    const std::vector<Index> flips = resolve_degenerate_faces(resolved);
+    Polyhedron result = Inscribed_mapping(resolved, resolved, options_, traits_).find(apex, accept);
+    result.flips.insert(result.flips.begin(), flips.begin(), flips.end());
+    result.statistics.number_of_flips = result.flips.size();
+    result.statistics.number_of_resolving_flips = flips.size();
+    result.statistics.conformal_class = Conformal_class::GIVEN_TRIANGULATION;
+    return result;
+  }
+
+private:
+  Polyhedron find(Index apex, const Accept& accept) const
+  {
     const Retriangulation retriangulation = options_.retriangulation;
     const Stopwatch stopwatch;
     Polyhedron result;
     double discarded = 0;
     std::size_t discarded_iterations = 0;
-    if(retriangulation == Retriangulation::NEVER || (retriangulation == Retriangulation::WHEN_NEEDED && degenerate_faces(whole_).empty()))
+    const bool has_degenerate_faces = retriangulation == Retriangulation::WHEN_NEEDED && !degenerate_faces(whole_).empty();
+    if(retriangulation != Retriangulation::ALWAYS && !has_degenerate_faces)
     {
       result = on_fixed_triangulation(apex, retriangulation == Retriangulation::NEVER, accept);
       if(retriangulation == Retriangulation::NEVER || is_success(result.status) || !is_worth_another_try(result.status))
@@ -89,7 +105,6 @@ public:
     return result;
   }
 
-private:
   // Whether a convex polyhedron, which there is for every surface, may be found in another way: with flips, or from another apex.
   static bool is_worth_another_try(Status status)
   {
