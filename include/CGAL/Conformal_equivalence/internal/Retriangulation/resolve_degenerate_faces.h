@@ -55,8 +55,8 @@ std::vector<std::uint32_t> degenerate_faces(const Intrinsic_triangulation<NT>& t
   return result;
 }
 
-// The distance of k from the point m of the side jl, which divides it as the lengths jm and ml say (M. Stewart, 1746). That of two triangles laid side by
-// side would make a height of some 1e-8 of what rounding leaves of a flat one.
+// The distance of k from the point m of the side jl, which divides it as the lengths jm and ml say (M. Stewart, 1746). That of two triangles laid
+// side by side would make a height of some 1e-8 of what rounding leaves of a flat one.
 template <typename NT>
 NT distance_from_point_of_side(const NT& jm, const NT& ml, const NT& jk, const NT& lk, const NT& jl)
 {
