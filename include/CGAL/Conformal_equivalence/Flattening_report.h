@@ -125,6 +125,10 @@ struct [[nodiscard]] Flattening_report
   /// flipped or flat; none unless a refinement was asked for
   std::vector<face_descriptor> bent_faces;
 
+  /// faces of no area in the surface given that flips have resolved (`Statistics::number_of_resolving_flips`): their images are segments up to
+  /// rounding, or, where the surface is curved, as good as segments, so that it does not count if they are not positive
+  std::vector<face_descriptor> flat_faces;
+
   /// on the sphere and the disk: faces whose images, or parts of them, are positive as they were computed, but not with the points
   /// rounded to the number type of the result
   std::vector<face_descriptor> rounded_faces;

@@ -27,6 +27,7 @@
 #include <CGAL/Conformal_equivalence/internal/Layout/lay_out_pieces.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/layout_frames.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Cell_verdict.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/resolve_degenerate_faces.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
@@ -249,7 +250,10 @@ public:
   {
     stage(Stage::VERIFY, [&]
     {
-      const std::vector<Index> flipped = flipped_triangles();
+      std::vector<Index> flipped = flipped_triangles();
+      if(metric.statistics.number_of_resolving_flips != 0)
+        for(Index f : take_degenerate_faces(mesh.triangulation, flipped))
+          report.flat_faces.push_back(mesh.face(f));
       if(refinement.number_of_faces() == 0)
         return refuse_flipped(flipped);
       judge(refinement);

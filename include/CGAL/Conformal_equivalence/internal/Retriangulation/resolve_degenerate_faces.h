@@ -17,6 +17,7 @@
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -92,6 +93,16 @@ std::vector<std::uint32_t> resolve_degenerate_faces(Intrinsic_triangulation<NT>&
     suspects.push_back(g / 3);
   }
   return flips;
+}
+
+// Takes those out of `faces` that have no area, and returns them.
+template <typename NT>
+std::vector<std::uint32_t> take_degenerate_faces(const Intrinsic_triangulation<NT>& t, std::vector<std::uint32_t>& faces)
+{
+  const auto middle = std::stable_partition(faces.begin(), faces.end(), [&](std::uint32_t f) { return !is_degenerate_face(t, f); });
+  const std::vector<std::uint32_t> result(middle, faces.end());
+  faces.erase(middle, faces.end());
+  return result;
 }
 
 } // namespace internal

@@ -95,7 +95,13 @@ private:
       discarded = stopwatch.seconds();
       discarded_iterations = result.statistics.number_of_iterations;
     }
-    result = with_flips(apex, retriangulation, accept);
+    Triangulation start = whole_;
+    std::vector<Index> flips;
+    if(has_degenerate_faces)
+      flips = resolve_degenerate_faces(start);
+    const std::size_t number_of_resolving_flips = flips.size();
+    result = with_flips(apex, std::move(start), std::move(flips), accept);
+    result.statistics.number_of_resolving_flips = number_of_resolving_flips;
     result.statistics.seconds.solve = stopwatch.seconds();
     result.statistics.seconds.discarded = discarded;
     result.statistics.number_of_discarded_iterations = discarded_iterations;
@@ -139,20 +145,17 @@ private:
     return is_success(other.status) || !is_success(result.status) ? other : result;
   }
 
-  Polyhedron with_flips(Index apex, Retriangulation retriangulation, const Accept& accept) const
+  // `start` is what `flips` have made of the whole.
+  Polyhedron with_flips(Index apex, Triangulation start, std::vector<Index> flips, const Accept& accept) const
   {
     Polyhedron result;
-    Triangulation start = whole_;
-    std::vector<Index> flips;
-    if(retriangulation == Retriangulation::ALWAYS && !make_intrinsic_delaunay(start, result.faces, [&](Index e) { flips.push_back(e); }))
+    if(options_.retriangulation == Retriangulation::ALWAYS && !make_intrinsic_delaunay(start, result.faces, [&](Index e) { flips.push_back(e); }))
     {
       // those of the surface come before their images
       result.faces.erase(std::lower_bound(result.faces.begin(), result.faces.end(), surface_.number_of_faces()), result.faces.end());
       result.status = Status::DEGENERATE_METRIC;
       return result;
     }
-    if(retriangulation == Retriangulation::WHEN_NEEDED)
-      flips = resolve_degenerate_faces(start);
     std::vector<Index> apices = best_apices(is_closed() ? start : surface_, most_apices_);
     if(apex != surface_.null_index) // others lead to the same polyhedron, if this one fails
       apices.insert(apices.begin(), apex);
@@ -260,9 +263,12 @@ void take_over(const Imported_mesh<TriangleMesh, NT>& mesh, const Ideal_polyhedr
 
 // The verdict on an image: the faces that are not positive there, and those that are not any more when their points are rounded.
 template <typename TriangleMesh, typename NT>
-void tell_verdict(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vector<std::uint32_t>& flipped, const std::vector<std::uint32_t>& rounded,
+void tell_verdict(const Imported_mesh<TriangleMesh, NT>& mesh, std::vector<std::uint32_t> flipped, const std::vector<std::uint32_t>& rounded,
                   Flattening_report<TriangleMesh>& report)
 {
+  if(report.statistics.number_of_resolving_flips != 0)
+    for(std::uint32_t f : take_degenerate_faces(mesh.triangulation, flipped))
+      report.flat_faces.push_back(mesh.face(f));
   if(!flipped.empty())
   {
     report.status = Status::NOT_INJECTIVE;
