@@ -52,7 +52,7 @@ function(conformal_equivalence_add_support name)
       add_library(Conformal_equivalence::${name}_support INTERFACE IMPORTED GLOBAL)
       set_target_properties(Conformal_equivalence::${name}_support PROPERTIES
         INTERFACE_COMPILE_DEFINITIONS "CGAL_CONFORMAL_EQUIVALENCE_USE_${name}"
-        INTERFACE_LINK_LIBRARIES "${library_${name}}")
+        INTERFACE_LINK_LIBRARIES "${library_${name}};${CMAKE_DL_LIBS}") # (CHOLMOD: threads are held by functions that are looked up)
       set_target_properties(${library_${name}} PROPERTIES IMPORTED_GLOBAL TRUE)
     endif()
   endif()

@@ -753,6 +753,33 @@ BOOST_AUTO_TEST_CASE(degenerate_minimizers_are_named)
 
 // ---- Appendix E
 
+// While a direct solver works, libraries beneath it use one thread, however many users there are; then what was set before.
+BOOST_AUTO_TEST_CASE(threads_are_held_and_given_back)
+{
+  typedef CE::internal::One_linear_algebra_thread One_thread;
+  const CE::internal::Thread_setting settings[] = {
+    CE::internal::find_thread_setting("openblas_get_num_threads", "openblas_set_num_threads", 1),
+    CE::internal::find_thread_setting("omp_get_max_active_levels", "omp_set_max_active_levels", 0) };
+  for(const CE::internal::Thread_setting& setting : settings)
+    if(setting.is_there()) // that library is loaded
+    {
+      const int given = setting.get();
+      setting.set(2);
+      const int before = setting.get();
+      {
+        const One_thread outer;
+        BOOST_TEST(setting.get() == setting.single);
+        {
+          const One_thread inner;
+          BOOST_TEST(setting.get() == setting.single);
+        }
+        BOOST_TEST(setting.get() == setting.single);
+      }
+      BOOST_TEST(setting.get() == before);
+      setting.set(given);
+    }
+}
+
 // Among the flat metrics, u = 0 on the border has the least Dirichlet energy, better and better so as the
 // mesh is refined: for border data s phi, D(s) - D(0) becomes a multiple of s^2.
 BOOST_AUTO_TEST_CASE(natural_border_has_the_least_dirichlet_energy)

@@ -11,6 +11,8 @@
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
+#include <CGAL/Conformal_equivalence/internal/Solver/One_linear_algebra_thread.h>
+
 #include <CGAL/Eigen_solver_traits.h>
 
 #include <Eigen/SparseCholesky>
@@ -56,12 +58,16 @@ struct Has_diagonal<Solver, std::void_t<decltype(std::declval<const Solver&>().v
 ///         `Eigen::CholmodSupernodalLLT` or another direct solver with `analyzePattern()` and
 ///         `factorize()` that reads the lower half of the matrix.
 ///
+/// While CHOLMOD works, OpenBLAS and OpenMP are held to one thread, and left as they were afterwards.
+///
 /// \cgalModels{SparseLinearAlgebraWithPatternTraits_d}
 template <typename EigenSolver>
 class Eigen_pattern_solver_traits
   : public CGAL::Eigen_solver_traits<EigenSolver>
 {
   typedef CGAL::Eigen_solver_traits<EigenSolver> Base;
+  typedef std::conditional_t<internal::Is_cholmod_solver<EigenSolver>::value, internal::One_linear_algebra_thread, internal::Any_number_of_threads>
+    Threads;
 
 public:
   typedef typename Base::Matrix Matrix; ///< sparse matrix
@@ -85,6 +91,7 @@ public:
   /// orders the rows and analyzes the pattern of `A`. Returns `true` on success.
   bool analyze_pattern(const Matrix& A)
   {
+    [[maybe_unused]] const Threads threads;
     this->solver().analyzePattern(A.eigen_object());
     return true;
   }
@@ -93,6 +100,7 @@ public:
   /// Returns `true` iff `A` is positive definite as far as rounding tells.
   bool refactor(const Matrix& A, NT& D)
   {
+    [[maybe_unused]] const Threads threads;
     D = NT(1);
     this->solver().factorize(A.eigen_object());
     return is_positive_definite();
@@ -107,6 +115,7 @@ public:
   /// solves \f$ A \times X = B \f$ for the matrix last factorized, which need not exist any more.
   bool linear_solver(const Vector& B, Vector& X)
   {
+    [[maybe_unused]] const Threads threads;
     X = this->solver().solve(B);
     return this->solver().info() == Eigen::Success;
   }
