@@ -246,9 +246,9 @@ double rectangle_energy(const Maps& m, const Corners& corners)
   return metric ? CE::dirichlet_energy(mesh.triangulation, metric.log_scale_factors) : infinity;
 }
 
-Corners select_corners(const Mesh& sm, Report& report)
+Corners select_corners(const Mesh& sm, Report& report, CE::Retriangulation retriangulation = CE::Retriangulation::WHEN_NEEDED)
 {
-  return CE::select_rectangle_corners(sm, border_halfedge(sm), params::flattening_report(std::ref(report)));
+  return CE::select_rectangle_corners(sm, border_halfedge(sm), params::flattening_report(std::ref(report)).retriangulation(retriangulation));
 }
 
 } // namespace
@@ -308,7 +308,7 @@ BOOST_AUTO_TEST_CASE(forced_corners)
       BOOST_TEST((std::find(corners.begin(), corners.end(), v) != corners.end()));
 
   Maps six(star(6));
-  const Corners none = select_corners(six.sm, report);
+  const Corners none = select_corners(six.sm, report, CE::Retriangulation::NEVER);
   BOOST_TEST((report.status == Status::ANGLE_OUT_OF_RANGE));
   BOOST_TEST(report.amount == CGAL_PI);
   BOOST_TEST((set_of(report.vertex_indices) == std::set<std::size_t>{ 7, 8, 9, 10, 11, 12 }));
@@ -321,6 +321,29 @@ BOOST_AUTO_TEST_CASE(forced_corners)
   BOOST_TEST((refused.status == Status::ANGLE_OUT_OF_RANGE));
   BOOST_TEST((set_of(refused.vertex_indices) == std::set<std::size_t>{ 11, 12 }));
   BOOST_TEST(six.is_untouched());
+}
+
+// More border vertices with a single triangle than a rectangle has corners: with flips, each of them can be straight.
+BOOST_AUTO_TEST_CASE(more_single_triangles_than_corners)
+{
+  for(const Index n : { 5, 6, 9 })
+  {
+    Maps m(star(n));
+    Report report;
+    const Corners corners = select_corners(m.sm, report);
+    BOOST_REQUIRE((report.status == Status::OK));
+    BOOST_TEST(std::set<Vertex>(corners.begin(), corners.end()).size() == 4u);
+    CE::prescribe_rectangle(m.sm, corners, m.angle);
+    CE::Common_refinement<double> refinement; // so that triangles may be bent
+    const Report flat = m.flatten(params::border_angle_map(m.angle).common_refinement(std::ref(refinement)));
+    BOOST_TEST(bool(flat), CE::message(flat));
+    BOOST_TEST(flat.statistics.number_of_flips > 0u);
+    for(Vertex v : border_vertices(m.sm)) // the angle of the refined map, up to what the solver leaves of it and the rounding of coordinates
+    {
+      const bool is_corner = std::find(corners.begin(), corners.end(), v) != corners.end();
+      BOOST_TEST(std::abs(refinement.angle_sums[v] - CGAL_PI / (is_corner ? 2 : 1)) <= 1e-9);
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(no_corners)

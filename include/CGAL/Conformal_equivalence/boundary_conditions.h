@@ -15,6 +15,7 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Rectangle_corners.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/options.h>
 #include <CGAL/Conformal_equivalence/read_conditions.h>
 
 #include <CGAL/assertions.h>
@@ -68,14 +69,14 @@ void prescribe_rectangle(const TriangleMesh& tm,
 
 /// \ingroup PkgConformalEquivalenceSolver
 ///
-/// chooses the corners for a rectangle with little distortion. Border vertices with one
-/// triangle must be corners. The others are chosen among the vertices of extreme turning of the
+/// chooses the corners for a rectangle with little distortion. Up to four border vertices with one
+/// triangle are corners; where there are more, only a map with flipped edges makes them straight. The others are chosen among the vertices of extreme turning of the
 /// natural map's border, so that the Dirichlet energy of u (App. E) is least: first exactly for the
 /// linearized problem (12), by trying all choices; then, by solving, corners are exchanged until no single
 /// exchange that the linearized problem does not rule out improves the energy.
 ///
 /// Time is that of one factorization each for the natural and the straight border, and of some
-/// dozens of solutions with a kept factor.
+/// dozens of solutions with a kept factor, or with flips where there are more than four border vertices with one triangle.
 ///
 /// \param tm a triangle mesh
 /// \param bhd a halfedge of the border of a topological disk; `null_halfedge()` is refused (`WRONG_TOPOLOGY`)
@@ -84,6 +85,11 @@ void prescribe_rectangle(const TriangleMesh& tm,
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
 ///   \cgalParamNBegin{edge_length_map} \cgalParamDescription{as in `import_mesh()`} \cgalParamNEnd
+///   \cgalParamNBegin{retriangulation}
+///     \cgalParamDescription{whether edges are flipped by the map for which the corners are}
+///     \cgalParamType{`Retriangulation`}
+///     \cgalParamDefault{`Retriangulation::WHEN_NEEDED`}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{flattening_report}
 ///     \cgalParamDescription{is told why there are no corners}
 ///     \cgalParamType{`std::reference_wrapper<Flattening_report<TriangleMesh> >`}
@@ -94,7 +100,7 @@ void prescribe_rectangle(const TriangleMesh& tm,
 /// \return the corners in their order along the border (as halfedges `next(bhd)` run); four null vertices if there are none.
 ///         The report then has a status of `import_mesh()` or of the solver, `WRONG_TOPOLOGY`, `MISSING_CONDITION` (fewer than
 ///         four border vertices), or `ANGLE_OUT_OF_RANGE` (more than four border vertices with a single triangle,
-///         which cannot be straight).
+///         which cannot be straight with `Retriangulation::NEVER`).
 template <typename TriangleMesh, typename NamedParameters = parameters::Default_named_parameters>
 std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4>
 select_rectangle_corners(const TriangleMesh& tm,
@@ -115,8 +121,10 @@ select_rectangle_corners(const TriangleMesh& tm,
     report.status = Status::WRONG_TOPOLOGY;
   if(bool(report))
   {
+    const Retriangulation retriangulation = parameters::choose_parameter(get_parameter(np, internal_np::conformal_retriangulation),
+                                                                         Retriangulation::WHEN_NEEDED);
     const std::uint32_t first = mesh.triangulation.next_on_border(mesh.index_of_halfedge(opposite(bhd, tm)));
-    const internal::Rectangle_corners found = internal::select_rectangle_corners(mesh.triangulation, first);
+    const internal::Rectangle_corners found = internal::select_rectangle_corners(mesh.triangulation, first, retriangulation);
     report.status = found.status;
     report.amount = found.amount;
     internal::name_elements(mesh, found.vertices, {}, {}, report);

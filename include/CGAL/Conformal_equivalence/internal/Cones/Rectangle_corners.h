@@ -54,9 +54,9 @@ class Rectangle_corner_selection
   static constexpr double least_improvement_ = 1e-9;
 
 public:
-  // `border` are the vertices of the border of the disk `t`, in order
-  Rectangle_corner_selection(const Intrinsic_triangulation<double>& t, const std::vector<Index>& border)
-    : t_(t), border_(border), solver_(t)
+  // `border` are the vertices of the border of the disk `t`, in order; `retriangulation` is that of the map for which the corners are
+  Rectangle_corner_selection(const Intrinsic_triangulation<double>& t, const std::vector<Index>& border, Retriangulation retriangulation)
+    : t_(t), border_(border), retriangulation_(retriangulation), solver_(t)
   {}
 
   Rectangle_corners operator()()
@@ -69,7 +69,10 @@ public:
     for(Index v : border_)
       if(t_.degree(v) == 1)
         forced.push_back(v);
-    if(forced.size() > 4)
+    // Where border edges are flipped on the double, a vertex with a single triangle may be straight. That takes longer, so that it is not done where
+    // there is no need.
+    is_any_free_ = forced.size() > 4 && retriangulation_ != Retriangulation::NEVER;
+    if(forced.size() > 4 && !is_any_free_)
     {
       result.status = Status::ANGLE_OUT_OF_RANGE;
       result.amount = CGAL_PI;
@@ -87,7 +90,8 @@ public:
   }
 
 private:
-  bool is_forced(Index candidate) const { return t_.degree(border_[candidates_[candidate]]) == 1; }
+  bool is_forced_vertex(Index v) const { return !is_any_free_ && t_.degree(v) == 1; }
+  bool is_forced(Index candidate) const { return is_forced_vertex(border_[candidates_[candidate]]); }
 
   // The border vertices (as positions in `border_`) where the natural map turns most: its local
   // maxima first, at most `most_candidates` of them; all forced ones.
@@ -98,7 +102,7 @@ private:
     const std::size_t n = border_.size();
     const auto rank = [&](Index i)
     {
-      if(t_.degree(border_[i]) == 1)
+      if(is_forced_vertex(border_[i]))
         return 2;
       return turning[i] >= turning[(i + 1) % n] && turning[i] >= turning[(i + n - 1) % n] ? 1 : 0;
     };
@@ -115,11 +119,11 @@ private:
     std::sort(candidates_.begin(), candidates_.end());
   }
 
-  // There are many maps to compare. What is not found soon, or not on this triangulation, is none of the best.
-  static Solver_options quickly()
+  // There are many maps to compare. What is not found soon, or not on this triangulation if there may be one on it, is none of the best.
+  Solver_options quickly() const
   {
     Solver_options result;
-    result.retriangulation = Retriangulation::NEVER;
+    result.retriangulation = is_any_free_ ? retriangulation_ : Retriangulation::NEVER;
     result.number_of_iterations = maximum_number_of_iterations_;
     return result;
   }
@@ -267,6 +271,8 @@ private:
 
   const Intrinsic_triangulation<double>& t_;
   const std::vector<Index>& border_;
+  const Retriangulation retriangulation_;
+  bool is_any_free_ = false; // although there are more vertices with a single triangle than corners
   std::vector<Index> candidates_;
   double straight_energy_ = 0;
   std::vector<double> g_;
@@ -275,7 +281,7 @@ private:
 };
 
 // `first` is a halfedge on the border of the disk `t`.
-inline Rectangle_corners select_rectangle_corners(const Intrinsic_triangulation<double>& t, std::uint32_t first)
+inline Rectangle_corners select_rectangle_corners(const Intrinsic_triangulation<double>& t, std::uint32_t first, Retriangulation retriangulation)
 {
   std::vector<std::uint32_t> border;
   std::uint32_t h = first;
@@ -285,7 +291,7 @@ inline Rectangle_corners select_rectangle_corners(const Intrinsic_triangulation<
     h = t.next_on_border(h);
   }
   while(h != first);
-  return Rectangle_corner_selection(t, border)();
+  return Rectangle_corner_selection(t, border, retriangulation)();
 }
 
 } // namespace internal
