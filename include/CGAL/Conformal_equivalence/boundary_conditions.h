@@ -70,8 +70,8 @@ void prescribe_rectangle(const TriangleMesh& tm,
 /// \ingroup PkgConformalEquivalenceSolver
 ///
 /// chooses the corners for a rectangle with little distortion. Up to four border vertices with one
-/// triangle are corners; where there are more, only a map with flipped edges makes them straight. The others are chosen among the vertices of extreme turning of the
-/// natural map's border, so that the Dirichlet energy of u (App. E) is least: first exactly for the
+/// triangle are corners; where there are more, only a map with flipped edges makes them straight. The others are chosen among the
+/// vertices of extreme turning of the natural map's border, so that the Dirichlet energy of u (App. E) is least: first exactly for the
 /// linearized problem (12), by trying all choices; then, by solving, corners are exchanged until no single
 /// exchange that the linearized problem does not rule out improves the energy.
 ///
