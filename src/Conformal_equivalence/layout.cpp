@@ -3,6 +3,7 @@
 
 // Part of the compiled library: cuts, layouts and common refinements, for `double`.
 
+#include <CGAL/Conformal_equivalence/internal/Doors/indexed_parameters.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/Cut_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/lay_out_pieces.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Refinement_builder.h>
@@ -11,6 +12,8 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+template std::vector<std::uint32_t> interior_cones(const Intrinsic_triangulation<double>&, const Conformal_conditions<double>&);
+template Cut_graph find_cut_graph(const Intrinsic_triangulation<double>&, const std::vector<std::uint32_t>&, Seam_options<double>);
 template Cut_graph find_cut(const Intrinsic_triangulation<double>&, const std::vector<std::uint32_t>&, Seam_conditions<double>);
 
 template Layout<double> lay_out(const Intrinsic_triangulation<double>&, const Conformal_metric<double>&, const Cut_graph&,

@@ -4,11 +4,17 @@
 // Part of the compiled library: the solver, for `double`.
 
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+template std::unique_ptr<Factorization> make_factorization(const Simplicial_solver_traits&);
+
+template Metric_finder<double>::Metric_finder(Intrinsic_triangulation<double>, std::unique_ptr<Factorization>);
+template Metric_finder<double>::~Metric_finder();
+template Intrinsic_triangulation<double> Metric_finder<double>::take_triangulation();
 template Conformal_metric<double> Metric_finder<double>::find(const Conformal_conditions<double>&, const Solver_options&);
 
 } // namespace internal

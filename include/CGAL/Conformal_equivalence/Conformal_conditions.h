@@ -14,6 +14,7 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <algorithm>
 #include <cmath>
@@ -110,19 +111,7 @@ struct Conformal_conditions
   /// no condition but the natural ones: angle sum 2 pi at interior vertices, u = 0 at border
   /// vertices (the border keeps its lengths). Isolated vertices are ignored.
   template <typename Length>
-  explicit Conformal_conditions(const Intrinsic_triangulation<Length>& t)
-    : kind_(t.number_of_vertices(), ANGLE_SUM),
-      angle_(t.number_of_vertices(), Exact_angle<NT>::pi_times(2)),
-      u_(t.number_of_vertices(), NT(0))
-  {
-    for(Index v = 0; v < t.number_of_vertices(); ++v)
-    {
-      if(!t.is_border_vertex(v))
-        continue;
-      kind_[v] = FIXED;
-      angle_[v] = Exact_angle<NT>::pi_times(1);
-    }
-  }
+  explicit Conformal_conditions(const Intrinsic_triangulation<Length>& t);
 
   /// the number of vertices.
   std::size_t size() const { return u_.size(); }
@@ -175,6 +164,26 @@ private:
   std::vector<Exact_angle<NT> > angle_;
   std::vector<NT> u_; // as fixed, or its lower bound
 };
+
+template <typename NT>
+template <typename Length>
+Conformal_conditions<NT>::Conformal_conditions(const Intrinsic_triangulation<Length>& t)
+  : kind_(t.number_of_vertices(), ANGLE_SUM),
+    angle_(t.number_of_vertices(), Exact_angle<NT>::pi_times(2)),
+    u_(t.number_of_vertices(), NT(0))
+{
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+  {
+    if(!t.is_border_vertex(v))
+      continue;
+    kind_[v] = FIXED;
+    angle_[v] = Exact_angle<NT>::pi_times(1);
+  }
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Conformal_conditions<double>::Conformal_conditions(const Intrinsic_triangulation<double>&);
+#endif
 
 } // namespace Conformal_equivalence
 } // namespace CGAL

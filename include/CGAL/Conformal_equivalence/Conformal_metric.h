@@ -15,6 +15,7 @@
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <cmath>
 #include <cstdint>
@@ -82,6 +83,10 @@ double angle_sum_at(const Conformal_metric<NT>& metric, std::uint32_t v)
   });
   return result;
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template double angle_sum_at(const Conformal_metric<double>&, std::uint32_t);
+#endif
 
 template <typename To, typename From> To convert_number(const From& x) { return To(x); }
 template <typename To> To convert_number(const Double_double& x) { return To(x.hi) + To(x.lo); }

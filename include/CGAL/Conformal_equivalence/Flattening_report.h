@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <boost/graph/graph_traits.hpp>
 
@@ -167,11 +168,12 @@ std::string elements_text(const char* singular, const char* plural, const Range&
   return result;
 }
 
-inline std::string elements_text(const std::vector<std::size_t>& vertices, const std::vector<std::array<std::size_t, 2> >& edges,
-                                 const std::vector<std::size_t>& faces)
+template <typename Index>
+std::string elements_text(const std::vector<Index>& vertices, const std::vector<std::array<Index, 2> >& edges,
+                          const std::vector<Index>& faces)
 {
-  const auto number = [](std::size_t i) { return std::to_string(i); };
-  const auto ends = [](const std::array<std::size_t, 2>& e) { return std::to_string(e[0]) + '-' + std::to_string(e[1]); };
+  const auto number = [](Index i) { return std::to_string(i); };
+  const auto ends = [](const std::array<Index, 2>& e) { return std::to_string(e[0]) + '-' + std::to_string(e[1]); };
   return elements_text("vertex", "vertices", vertices, number) + elements_text("edge", "edges", edges, ends)
          + elements_text("face", "faces", faces, number);
 }
@@ -207,6 +209,21 @@ inline std::string amount_text(Status status, double amount)
   }
 }
 
+// The line of English for a report; elements by their positions, of type `Index`.
+template <typename Index>
+std::string message_text(Status status, double amount, const Surface_topology& topology, const std::vector<Index>& vertices,
+                         const std::vector<std::array<Index, 2> >& edges, const std::vector<Index>& faces)
+{
+  const bool is_about_topology = status == Status::WRONG_TOPOLOGY || status == Status::SEAM_LEAVES_NO_DISK;
+  return message(status) + amount_text(status, amount) + (is_about_topology ? topology_text(topology) : std::string())
+         + elements_text(vertices, edges, faces);
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template std::string message_text(Status, double, const Surface_topology&, const std::vector<std::size_t>&,
+                                         const std::vector<std::array<std::size_t, 2> >&, const std::vector<std::size_t>&);
+#endif
+
 } // namespace internal
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -215,10 +232,8 @@ inline std::string amount_text(Status status, double amount)
 template <typename TriangleMesh>
 std::string message(const Flattening_report<TriangleMesh>& report)
 {
-  const bool is_about_topology = report.status == Status::WRONG_TOPOLOGY || report.status == Status::SEAM_LEAVES_NO_DISK;
-  return message(report.status) + internal::amount_text(report.status, report.amount)
-         + (is_about_topology ? internal::topology_text(report.topology) : std::string())
-         + internal::elements_text(report.vertex_indices, report.edge_indices, report.face_indices);
+  return internal::message_text(report.status, report.amount, report.topology, report.vertex_indices, report.edge_indices,
+                                report.face_indices);
 }
 
 } // namespace Conformal_equivalence

@@ -12,6 +12,8 @@
 
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
+
 #include <CGAL/assertions.h>
 
 #include <algorithm>
@@ -62,14 +64,7 @@ public:
   /// Linear time.
   /// \pre `origin.size() == twin.size()` is a multiple of 3; `twin` is an
   ///      involution without fixed points; glued halfedges are opposite.
-  Intrinsic_triangulation(Index number_of_vertices, std::vector<Index> origin, std::vector<Index> twin)
-    : origin_(std::move(origin)), twin_(std::move(twin))
-  {
-    CGAL_precondition(origin_.size() == twin_.size() && origin_.size() % 3 == 0);
-    number_edges();
-    find_outgoing_halfedges(number_of_vertices);
-    length_.assign(halfedge_of_edge_.size(), NT(1));
-  }
+  Intrinsic_triangulation(Index number_of_vertices, std::vector<Index> origin, std::vector<Index> twin);
 
   /// returns the surface with the same triangulation and other lengths, of the
   /// number type `Other_NT`.
@@ -344,6 +339,21 @@ private:
   std::vector<Index> halfedge_of_vertex_;
   std::vector<NT> length_;                    // by edge
 };
+
+template <typename NT>
+Intrinsic_triangulation<NT>::Intrinsic_triangulation(Index number_of_vertices, std::vector<Index> origin, std::vector<Index> twin)
+  : origin_(std::move(origin)), twin_(std::move(twin))
+{
+  CGAL_precondition(origin_.size() == twin_.size() && origin_.size() % 3 == 0);
+  number_edges();
+  find_outgoing_halfedges(number_of_vertices);
+  length_.assign(halfedge_of_edge_.size(), NT(1));
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Intrinsic_triangulation<double>::Intrinsic_triangulation(std::uint32_t, std::vector<std::uint32_t>,
+                                                                         std::vector<std::uint32_t>);
+#endif
 
 /// \ingroup PkgConformalEquivalenceMetric
 ///

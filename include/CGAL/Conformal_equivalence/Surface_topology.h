@@ -10,6 +10,7 @@
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -189,6 +190,12 @@ std::vector<std::uint32_t> non_manifold_vertices(const Intrinsic_triangulation<N
       result.push_back(v);
   return result;
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Surface_components connected_components(const Intrinsic_triangulation<double>&);
+extern template Surface_topology surface_topology(const Intrinsic_triangulation<double>&, const Surface_components&);
+extern template std::vector<std::uint32_t> non_manifold_vertices(const Intrinsic_triangulation<double>&);
+#endif
 
 } // namespace Conformal_equivalence
 } // namespace CGAL

@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/internal/Layout/Cut_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/Seam_conditions.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/layout_frames.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 #include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/read_conditions.h>
@@ -89,6 +90,10 @@ Cut_graph find_cut_graph(const Intrinsic_triangulation<NT>& t, const std::vector
   return find_cut(t, cones, std::move(conditions));
 }
 
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Cut_graph find_cut_graph(const Intrinsic_triangulation<double>&, const std::vector<std::uint32_t>&, Seam_options<double>);
+#endif
+
 // ---- Vertices
 
 // The conditions that the named parameters give for the mesh; `report` names the vertices that lack one.
@@ -116,6 +121,10 @@ std::vector<std::uint32_t> interior_cones(const Intrinsic_triangulation<NT>& t, 
       result.push_back(v);
   return result;
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template std::vector<std::uint32_t> interior_cones(const Intrinsic_triangulation<double>&, const Conformal_conditions<double>&);
+#endif
 
 // The map of the initial u has vertices of the mesh for keys here.
 template <typename TriangleMesh, typename NT, typename NamedParameters>

@@ -9,6 +9,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_OVERLAY_CELL_VERDICT_H
 
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -60,6 +61,10 @@ std::vector<std::uint32_t> input_faces_lost(const Common_refinement<NT>& refinem
   cells.insert(cells.end(), refinement.rounded_faces.begin(), refinement.rounded_faces.end());
   return input_faces(refinement, cells);
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template std::vector<std::uint32_t> input_faces_lost(const Common_refinement<double>&);
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -86,12 +86,8 @@ public:
   typedef typename Metric::Wide_number Wide_number;
   typedef typename Triangulation::Index Index;
 
-  Metric_finder(Triangulation t, std::unique_ptr<Factorization> factorization)
-    : triangulation_(std::move(t)), pieces_(connected_components(triangulation_)), scales_(triangulation_, pieces_),
-      linear_(std::move(factorization))
-  {
-    linear_.set_edges(triangulation_);
-  }
+  Metric_finder(Triangulation t, std::unique_ptr<Factorization> factorization);
+  ~Metric_finder();
 
   Metric_finder(const Metric_finder&) = delete; // parts refer to one another
   Metric_finder& operator=(const Metric_finder&) = delete;
@@ -103,11 +99,7 @@ public:
   Metric find(const Conditions& conditions, const Solver_options& options);
 
   // Gives the surface away, and what was kept for the next problem. \pre nothing is asked any more
-  Triangulation take_triangulation()
-  {
-    fixed_energy_.reset();
-    return std::move(triangulation_);
-  }
+  Triangulation take_triangulation();
 
 private:
   void try_in_turn(const Conditions& conditions, const Solver_options& options, Metric& result)
@@ -474,6 +466,25 @@ private:
 };
 
 template <typename NT>
+Metric_finder<NT>::Metric_finder(Triangulation t, std::unique_ptr<Factorization> factorization)
+  : triangulation_(std::move(t)), pieces_(connected_components(triangulation_)), scales_(triangulation_, pieces_),
+    linear_(std::move(factorization))
+{
+  linear_.set_edges(triangulation_);
+}
+
+template <typename NT>
+Metric_finder<NT>::~Metric_finder()
+{}
+
+template <typename NT>
+Intrinsic_triangulation<NT> Metric_finder<NT>::take_triangulation()
+{
+  fixed_energy_.reset();
+  return std::move(triangulation_);
+}
+
+template <typename NT>
 Conformal_metric<NT> Metric_finder<NT>::find(const Conditions& conditions, const Solver_options& options)
 {
   const Stopwatch stopwatch;
@@ -492,6 +503,9 @@ Conformal_metric<NT> Metric_finder<NT>::find(const Conditions& conditions, const
 }
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Metric_finder<double>::Metric_finder(Intrinsic_triangulation<double>, std::unique_ptr<Factorization>);
+extern template Metric_finder<double>::~Metric_finder();
+extern template Intrinsic_triangulation<double> Metric_finder<double>::take_triangulation();
 extern template Conformal_metric<double> Metric_finder<double>::find(const Conditions&, const Solver_options&);
 #endif
 

@@ -7,6 +7,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_FACTORIZATION_H
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <Eigen/SparseCore>
 
@@ -101,12 +102,15 @@ private:
   bool is_analyzed_ = false;
 };
 
-
 template <typename SolverTraits>
 std::unique_ptr<Factorization> make_factorization(const SolverTraits& traits = SolverTraits())
 {
   return std::make_unique<Factorization_by<SolverTraits> >(traits);
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template std::unique_ptr<Factorization> make_factorization(const Simplicial_solver_traits&);
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

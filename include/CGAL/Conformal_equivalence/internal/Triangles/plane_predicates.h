@@ -6,6 +6,7 @@
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <CGAL/enum.h>
 
@@ -33,6 +34,10 @@ Orientation exact_turn(const std::array<NT, 2>& p, const std::array<NT, 2>& q, c
   const Exact_number x = exact_number(p[0]), y = exact_number(p[1]);
   return ((exact_number(q[0]) - x) * (exact_number(r[1]) - y) - (exact_number(q[1]) - y) * (exact_number(r[0]) - x)).sign();
 }
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Orientation exact_turn(const std::array<double, 2>&, const std::array<double, 2>&, const std::array<double, 2>&);
+#endif
 
 // The same for `double`, where the determinant as computed nearly always tells: its error is less than two units in the last
 // place of the sum of its two products, in whatever way numbers are rounded, if none of them has underflowed.
