@@ -24,11 +24,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -37,6 +39,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fs = std::filesystem;
@@ -234,6 +237,10 @@ BOOST_AUTO_TEST_CASE(bad_files)
 {
   const Folder folder;
   const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n", two = "3 0 1 2\n3 0 2 3\n";
+  const auto obj = [](const std::string& lines) { return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n" + lines; };
+  const std::string vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n",
+                    faces = "element face 1\nproperty list char int vertex_indices\n";
+  const auto ply = [](const std::string& elements, const std::string& body) { return "ply\nformat ascii 1.0\n" + elements + "end_header\n" + body; };
   struct Case { const char* name; std::string content; const char* reason; };
   const std::vector<Case> cases = {
     {"a.off", "", "the file is empty"},
@@ -254,8 +261,14 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.off", off(square, "3 0 1 2\n3 0 2 4\n"), "line 8: face 1 names the vertex 4, but there are 4 vertices"},
     {"a.off", off(square, "3 0 1 2\n3 0 2 -1\n"), "face 1 names the vertex -1"},
     {"a.off", off(square, "3 0 1 2\n3 0 2\n"), "line 8: expected an integer"},
-    {"a.off", off(square, "4 0 1 2 3\n"), "line 7: face 0 has 4 vertices; only triangle meshes"},
-    {"a.off", off(square, "3 0 1 2\n2 0 1\n"), "face 1 has 2 vertices"},
+    {"a.off", off(square, "3 0 1 2\n2 0 1\n"), "face 1 has only 2 vertices"},
+    {"a.off", off(square, "3 0 1 2\n0\n"), "line 8: face 1 has no vertices"},
+    {"a.off", off(square, two) + "3 0 1 2\n", "line 9: there is more than the 4 vertices and 2 faces that are announced"},
+    {"a.off", "OFF\n4 2 0\n" + square + "0 0 1\n" + two, "line 7: face 0 has no vertices"}, // another vertex than announced
+    {"a.off", off("0 0 0 1 0 0\n1 1 0\n0 1 0\n0 0 1\n", two) + "x\n", "line 9: there is more than"},
+    {"a.off", off("0 0 0 red\n1 0 0\n0 1 0\n", "3 0 1 2\n"), "line 3: expected a number, found 'red'"},
+    {"a.off", off("0 0 0\n1 0 0\n0 1 1.#INF\n", "3 0 1 2\n"), "line 5: expected a number, found '1.#INF'"},
+    {"a.off", "\xFF\xFEO\0F\0F\0", "is encoded in UTF-16 or UTF-32; convert it to UTF-8"},
     {"a.off", off(square, "3 0 1 2\n3 0 2 2\n"), "face 1 has the vertex 2 twice"},
     {"a.off", off(square, ""), "there are no faces"},
     {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 1 0 3\n3 0 1 4\n"), "not a manifold: the edge 0-1 lies in 3 faces"},
@@ -267,18 +280,51 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: face 0 names the vertex 4 (counted from 1)"},
     {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "line 4"},
     {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n", "face 0 names the vertex 0 (counted from 1)"},
-    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\n", "line 5: face 0 has 4 vertices"},
+    {"a.obj", obj("f 1 2 3/x\n"), "line 5: a face: expected the number of a texture coordinate, found 'x' in '3/x'"},
+    {"a.obj", obj("f 1 2 3//y\n"), "expected the number of a normal, found 'y' in '3//y'"},
+    {"a.obj", obj("f 1 2 3/1/1/1\n"), "expected a corner 'v/vt/vn', found '3/1/1/1'"},
+    {"a.obj", obj("f 1 2 3/0\n"), "expected the number of a texture coordinate, found '0'"},
+    {"a.obj", obj("f 1 2 /1\n"), "expected the number of a vertex, found '' in '/1'"},
+    {"a.obj", obj("f 1 2 3\\\n4\n"), "line 5: the line is continued within a word"},
+    {"a.obj", obj("f 1 2 3\n4\n"), "line 6: expected a key word, such as 'v' or 'f', found '4'"},
+    {"a.obj", obj("f\n"), "line 5: face 0 has no vertices"},
+    {"a.obj", obj("f 1 2 3 # \\\n 4\n"), "line 6: expected a key word"}, // a comment is not continued
+    {"a.obj", obj("call more.obj\nf 1 2 3\n"), "line 5: 'call' takes lines from elsewhere"},
+    {"a.obj", "v 0 0 0\n\xEF\xBB\xBFv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\n", "line 2: expected a key word, such as 'v' or 'f', found '???v'"},
+    {"a.obj", "v 0 0 0 v 1 0 0\n", "line 1: expected a number, found 'v'"},
     {"a.obj", "v 0 0\nv 1 0 0\n", "line 1: expected a number, found the end of the line"},
     {"a.obj", "hello\n", "there are no faces"},
+    {"a.obj", "# \\\nf 1 2 3\n", "face 0 names the vertex 1 (counted from 1), but there are 0 vertices"},
     {"a.stl", "hello", "neither text nor binary STL"},
     {"a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n", "'endsolid' is missing"},
     {"a.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n", "face 0 has 2 vertices"},
+    {"a.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nfacet\nendsolid\n", "line 6: a facet begins before the last one ends"},
+    {"a.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 1.0 0e5 0\nendfacet\nendsolid\n",
+     "points of face 0 coincide: it has (1, 0, 0) twice"},
+    {"a.stl", as_binary_stl({{{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{1, 500000.01, 0}}, {{1, 500000, 0}}}, {{{0, 1, 2}}, {{1, 3, 4}}}}),
+     "points of face 1 coincide in single precision, that of the file: it has (1, 500000, 0) twice"},
+    {"a.stl", as_binary_stl(bumpy_grid(2)).substr(0, 200), "is cut off: it announces 8 triangles, but ends after 2"},
+    {"a.stl", as_binary_stl(bumpy_grid(2)) + std::string(50, '\0'), "announces 8 triangles, but there is more: room for 9"},
     {"a.stl", "solid\nfacet\nvertex 0 0 0\nvertex nan 0 0\nvertex 0 1 0\nendfacet\nendsolid\n", "vertex 1 has the coordinate nan"},
     {"a.ply", "play\n", "a PLY file begins with 'ply'"},
     {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "unknown line '' in the header"},
     {"a.ply", "ply\nformat ternary 1.0\nend_header\n", "unknown PLY format"},
     {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nend_header\n", "no property 'z'"},
-    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty quad x\n", "unknown type 'quad'"} };
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty quad x\n", "unknown type 'quad'"},
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float\nproperty float y\n", "line 4: a property without a name"},
+    {"a.ply", ply("element vertex 3\nproperty float x\nproperty float y\nproperty float x\nproperty float z\n", ""), "'vertex' have the property 'x' twice"},
+    {"a.ply", ply(vertices + vertices, ""), "announces the elements 'vertex' twice"},
+    {"a.ply", ply(vertices + "element face 1\nproperty list uchar int corners\n", ""), "the elements 'face' have no list 'vertex_indices'"},
+    {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n"), "line 13: there is more than the elements that the header announces"},
+    {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0 0\n3 0 1 2\n"), "line 11: there are more numbers than the header has properties"},
+    {"a.ply", ply(vertices + faces, "0 0 0\n1 0\n0\n0 1 0\n3 0 1 2\n"), "line 10: expected a number, found the end of the line"},
+    {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n"), "face 0 names the vertex 1.5"},
+    {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n-1 0 1 2\n"), "a list 'vertex_indices' of -1 values"},
+    {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n2.5 0 1 2\n"), "a list 'vertex_indices' of 2.5 values"},
+    {"a.ply", ply(faces + vertices, "3 0 1 3\n0 0 0\n1 0 0\n0 1 0\n"), "line 9: face 0 names the vertex 3, but there are 3 vertices"},
+    {"a.ply", ply(vertices + "element tristrips 1\nproperty list int int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 -2\n"), "face 1 names the vertex -2"},
+    {"a.ply", as_binary_ply(bumpy_grid(2), true) + "\3", "there is more than the elements that the header announces"},
+    {"a.ply", as_binary_ply(bumpy_grid(2), false).substr(0, 400), "is cut off"} };
   for(const Case& c : cases)
   {
     const std::string input = folder.write(c.name, c.content);
@@ -290,6 +336,217 @@ BOOST_AUTO_TEST_CASE(bad_files)
   fs::create_directory(folder.path / "folder.off");
   check_refused({folder / "folder.off"}, 1, "is a directory");
   BOOST_TEST(folder.files().size() == 1u);
+}
+
+namespace {
+
+// Vertices and faces, as a reader numbers them.
+typedef std::pair<std::vector<std::array<double, 3> >, std::vector<std::vector<std::uint32_t> > > Elements;
+
+Elements read_elements(const Folder& folder, const std::string& name, const std::string& content)
+{
+  const flattening::Polygon_soup soup = flattening::read_soup(folder.write(name, content));
+  Elements result{soup.points, {}};
+  for(const flattening::Polygon& face : soup.faces)
+    result.second.emplace_back(face.begin(), face.end());
+  return result;
+}
+
+std::string with_line_ends(const std::string& content, const std::string& end)
+{
+  std::string result;
+  for(char c : content)
+    result += c == '\n' ? end : std::string(1, c);
+  return result;
+}
+
+// After the first and before the last word of each line that begins with one of these.
+std::string with_continued_lines(const std::string& content, const std::string& end)
+{
+  std::istringstream in(content);
+  std::string result;
+  for(std::string line; std::getline(in, line); )
+  {
+    if(line[0] == 'v' || line[0] == 'f')
+      line = line.substr(0, 1) + "\\" + end + line.substr(1, line.rfind(' ') - 1) + "  \\" + end + line.substr(line.rfind(' ') + 1);
+    result += line + end;
+  }
+  return result;
+}
+
+std::string upper_case(std::string text)
+{
+  for(char& c : text)
+    c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by)
+{
+  for(std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+} // namespace
+
+// A byte order mark, line ends of any kind, padding at the end: the same mesh.
+BOOST_AUTO_TEST_CASE(dressed_files)
+{
+  const Folder folder;
+  const Soup soup = bumpy_grid(3);
+  const std::string mark = "\xEF\xBB\xBF";
+  const std::vector<std::pair<const char*, std::string> > texts = {
+    {"a.off", as_off(soup)}, {"a.obj", as_obj(soup)}, {"a.ply", as_text_ply(soup)}, {"a.stl", as_text_stl(soup)} };
+  for(const auto& file : texts)
+    BOOST_TEST_CONTEXT(file.first)
+    {
+      const auto read = [&](const std::string& content) { return read_elements(folder, file.first, content); };
+      const Elements plain = read(file.second);
+      BOOST_TEST(plain.first.size() == soup.points.size());
+      BOOST_TEST(plain.second.size() == soup.triangles.size());
+      for(const char* end : {"\n", "\r\n", "\r"})
+        BOOST_TEST((read(mark + with_line_ends(file.second, end)) == plain));
+      BOOST_TEST((read(file.second.substr(0, file.second.size() - 1)) == plain)); // the last line has no end
+      BOOST_TEST((read(file.second + "\n \x1a") == plain));
+      BOOST_TEST((read(file.second + std::string(5, '\0')) == plain));
+    }
+  const Elements plain = read_elements(folder, "a.off", as_off(soup));
+  for(const char* end : {"\n", "\r\n", "\r"})
+    BOOST_TEST((read_elements(folder, "a.obj", with_continued_lines(as_obj(soup), end)) == plain));
+  for(bool is_big : {false, true})
+    BOOST_TEST((read_elements(folder, "a.ply", mark + as_binary_ply(soup, is_big) + "\r\n") == plain));
+
+  // conditions, too
+  const std::string input = folder.write("grid.off", as_off(soup));
+  BOOST_TEST(run({input, "--cones", folder.write("cones.txt", mark + "5 300 # a cone\r6 420\r")}).status == 0);
+}
+
+// The data of a binary PLY file may begin with what might be the end of the header's last line.
+BOOST_AUTO_TEST_CASE(binary_data_that_look_like_line_ends)
+{
+  const Folder folder;
+  Soup soup = bumpy_grid(1);
+  for(const char byte : {'\n', '\r', ' '})
+  {
+    double x = 0.5; // with this byte where the file has it first
+    std::memcpy(reinterpret_cast<char*>(&x) + (flattening::is_big_endian() ? 7 : 0), &byte, 1);
+    soup.points[0][0] = x;
+    const Elements plain = read_elements(folder, "a.off", as_off(soup));
+    const std::string bytes = as_binary_ply(soup, false);
+    const std::size_t end = bytes.find("end_header\n") + 11;
+    for(const char* line_end : {"\n", "\r\n", "\r"})
+      BOOST_TEST((read_elements(folder, "a.ply", with_line_ends(bytes.substr(0, end), line_end) + bytes.substr(end)) == plain));
+  }
+}
+
+// What formats allow besides the most usual forms.
+BOOST_AUTO_TEST_CASE(forms_of_files)
+{
+  const Folder folder;
+  const auto read = [&](const char* name, const std::string& content) { return read_elements(folder, name, content); };
+  const std::string v = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  const Elements square = read("a.obj", v + "f 1 2 3\nf 1 3 4\n");
+  BOOST_TEST((square.second == std::vector<std::vector<std::uint32_t> >{{0, 1, 2}, {0, 2, 3}}));
+  for(const char* faces : {"f 1/ 2/7 3//\nf 1//2 3/4/5 4\n", "fo 1 2 3\nfo -4 -2 -1\n", "f +1 2 3 # 4\nl 1 2\nf 1 3 4\n"})
+    BOOST_TEST((read("a.obj", v + faces) == square));
+  BOOST_TEST((read("a.obj", "f 1 2 3\nf 1 3 4\nv 0 0 0 1\nv 1 0 0 .1 .2 .3\nv 1 1 0 1 .5 .5 .5\nv 0 1 0\n") == square));
+
+  const std::string vertices = "element vertex 4\nproperty int x\nproperty float y\nproperty double z\n",
+                    strips = "element tristrips 1\nproperty list int int vertex_indices\n",
+                    faces = "element face 2\nproperty uchar label\nproperty list uchar uint vertex_index\nproperty list uchar float texcoord\n",
+                    points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  const auto ply = [&](const std::string& body) { return read("a.ply", "ply\nformat ascii 1.0\n" + body); };
+  BOOST_TEST((ply(vertices + faces + "end_header\n" + points + "7 3 0 1 2 6 0 0 1 0 1 1\n7 3 0 2 3 0\n") == square));
+  BOOST_TEST((ply(faces + vertices + "end_header\n7 3 0 1 2 0\n7 3 0 2 3 0\n" + points) == square));
+  BOOST_TEST((ply(vertices + strips + "end_header\n" + points + "7 0 1 2 -1 0 2 3\n") == square));
+  BOOST_TEST((ply(strips + vertices + "end_header\n8 0 1 2 -1 -1 0 2 3\n" + points) == square));
+  // every other triangle is turned over; triangles with a vertex twice lead on, and count
+  const Elements strip = ply(vertices + strips + "end_header\n" + points + "4 1 2 0 3\n");
+  BOOST_TEST((strip.second == std::vector<std::vector<std::uint32_t> >{{1, 2, 0}, {0, 2, 3}}));
+  const Elements stitched = ply(vertices + strips + "end_header\n" + points + "8 0 1 2 2 2 2 0 3\n");
+  BOOST_TEST((stitched.second == std::vector<std::vector<std::uint32_t> >{{0, 1, 2}, {0, 2, 3}}));
+
+  BOOST_TEST((read("a.off", "4OFF 4 2\n0 0 0 2\n2 0 0 2\n1 1 0 1\n0 .5 0 .5\n3 0 1 2 255 0 0\n3 0 2 3\n") == square));
+  BOOST_TEST((read("a.off", "COFF\n4 2 5\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n1 1 0 1 0 0 1\n0 1 0 1 0 0 1\n3 0 1 2\n3 0 2 3") == square));
+
+  // polygons stay as they are
+  for(const auto& file : std::vector<std::pair<const char*, std::string> >{
+        {"a.obj", v + "f 1 2 3\\\n 4\n"}, {"a.off", "OFF 4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
+        {"a.ply", "ply\nformat ascii 1.0\n" + vertices + replaced(faces, "face 2", "face 1") + "end_header\n" + points + "0 4 0 1 2 3 0\n"},
+        {"a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n"}})
+    BOOST_TEST((read(file.first, file.second) == Elements{square.first, {{0, 1, 2, 3}}}));
+}
+
+BOOST_AUTO_TEST_CASE(forms_of_stl)
+{
+  const Folder folder;
+  const Soup soup = bumpy_grid(3);
+  const auto read = [&](const std::string& content) { return read_elements(folder, "a.stl", content); };
+  const std::string text = as_text_stl(soup), bytes = as_binary_stl(soup);
+  const Elements from_text = read(text), from_bytes = read(bytes);
+  BOOST_TEST((from_text.second == from_bytes.second));
+  for(const std::string& other : {replaced(text, "endsolid", "end solid"), upper_case(text), replaced(text, "endfacet", "end facet"),
+                                  replaced(text, "normal 0 0 1", "normal nan nan nan"), replaced(text, "normal 0 0 1", ""),
+                                  "  \n" + replaced(text, "\n", "\n\t"), replaced(text, "grid of facets", ""),
+                                  replaced(text, "grid of facets", "facet vertex 1 2 3 endsolid")})
+    BOOST_TEST((read(other) == from_text));
+  BOOST_TEST((read(bytes + "tail") == from_bytes));
+  BOOST_TEST((read("SOLID" + bytes.substr(5) + "tail") == from_bytes));
+  const Run r = run({folder.write("a.stl", bytes + "tail")});
+  BOOST_TEST(r.status == 0);
+  BOOST_TEST(contains(r.err, "a.stl: skipped 4 bytes after the last triangle\n"));
+
+  // two solids
+  const std::size_t half = text.find("facet normal", text.size() / 2);
+  BOOST_TEST((read(text.substr(0, half) + "endsolid\nsolid two\n" + text.substr(half)) == from_text));
+}
+
+// What is skipped is said, once, and does no harm.
+BOOST_AUTO_TEST_CASE(notices)
+{
+  const Folder folder;
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\ng one\ns 1\nusemtl m\nf 1 2 3\nf 1 3 4\n";
+  const auto said = [&](const char* name, const std::string& content)
+  {
+    const std::string input = folder.write(name, content);
+    const Run r = run({input, "-o", folder / "o.obj"}), quiet = run({input, "--quiet"});
+    BOOST_TEST(r.status == 0);
+    BOOST_TEST(quiet.status == 0);
+    BOOST_TEST(quiet.err == "");
+    BOOST_TEST(! r.out.empty());
+    const std::string begin = "flatten_mesh: " + input + ": ";
+    return r.err.substr(0, begin.size()) == begin ? r.err.substr(begin.size()) : r.err;
+  };
+  BOOST_TEST(said("a.obj", square) == "");
+  BOOST_TEST(said("a.obj", square + "l 1 2\nvp 0.5\nl 2 3\n-- a line --\n") == "skipped lines: '--' (1), 'l' (2), 'vp' (1)\n");
+  BOOST_TEST(said("a.obj", square.substr(0, square.size() - 8) + "f 1//1 3//1 4//2\n")
+             == "skipped the normals of 1 face, which names normals that are not there\n");
+  BOOST_TEST(said("a.ply", "ply\nformat ascii 1.0\nelement edge 2\nproperty int a\nproperty int b\nelement vertex 3\nproperty float x\nproperty float y\n"
+                           "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 1\n1 2\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+             == "skipped 2 elements 'edge'\n");
+  BOOST_TEST(said("a.stl", "solid\ncolor 1 0 0\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid\n") == "skipped words: 'color' (1)\n");
+}
+
+// Around a vertex of many faces, too, time is linear: in 100 000 triangles quadratic time would be more than ten seconds.
+BOOST_AUTO_TEST_CASE(large_fan)
+{
+  const Folder folder;
+  const std::uint32_t n = 100000;
+  Soup soup;
+  soup.points.push_back({{ 0, 0, 0 }});
+  for(std::uint32_t i = 0; i < n; ++i)
+  {
+    soup.points.push_back({{ std::cos(2 * CGAL_PI * i / n), std::sin(2 * CGAL_PI * i / n), .1 }});
+    soup.triangles.push_back({{ 0, i + 1, (i + 1) % n + 1 }});
+  }
+  const std::string input = folder.write("fan.off", as_off(soup));
+  const std::clock_t begin = std::clock();
+  Mesh mesh;
+  flattening::read_mesh(input, mesh);
+  BOOST_TEST(double(std::clock() - begin) / CLOCKS_PER_SEC < 6);
+  BOOST_TEST(mesh.number_of_faces() == n);
+  BOOST_TEST(mesh.is_valid(false));
 }
 
 // However a file is cut off or damaged, the program returns.
@@ -354,9 +611,9 @@ struct Two_triangles
 
   Two_triangles()
   {
-    flattening::Triangle_soup soup;
+    flattening::Polygon_soup soup;
     soup.points = {{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}}, {{0.1, 1e-300, -1e300}}};
-    soup.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
+    soup.faces = {{0, 1, 2}, {0, 2, 3}};
     flattening::check_soup(soup, "two");
     flattening::build_mesh(soup, "two", mesh);
     uv = mesh.add_property_map<flattening::Halfedge, flattening::Kernel::Point_2>("h:uv").first;

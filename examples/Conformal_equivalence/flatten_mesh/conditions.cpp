@@ -5,13 +5,14 @@
 
 #include "../include/flatten_mesh/conditions.h"
 #include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/Polygon_soup.h"
 #include "../include/flatten_mesh/read_soup.h"
 #include "../include/flatten_mesh/Scanner.h"
-#include "../include/flatten_mesh/Triangle_soup.h"
 
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
@@ -201,26 +202,30 @@ void set_cones(const Options& options, const Mesh& mesh, Conditions& conditions)
 
 } // namespace
 
-void build_mesh(const Triangle_soup& soup, const std::string& file, Mesh& mesh)
+void build_mesh(const Polygon_soup& soup, const std::string& file, Mesh& mesh)
 {
   mesh.reserve(static_cast<Mesh::size_type>(soup.points.size()),
                static_cast<Mesh::size_type>(soup.number_of_edges),
-               static_cast<Mesh::size_type>(soup.triangles.size()));
+               static_cast<Mesh::size_type>(soup.faces.size()));
   for(const auto& p : soup.points)
     mesh.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
-  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+  std::vector<std::vector<Vertex> > faces;
+  faces.reserve(soup.faces.size());
+  for(const Polygon& face : soup.faces)
   {
-    const auto& t = soup.triangles[f];
-    if(mesh.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])) == Mesh::null_face())
-      fail(file, ": not a manifold at face ", f);
+    if(face.size() != 3)
+      fail(file, ": face ", faces.size(), " has ", face.size(), " vertices; only triangle meshes can be flattened");
+    faces.emplace_back(face.begin(), face.end());
   }
+  CGAL::Euler::add_faces(faces, mesh); // all at once: face by face takes quadratic time around a vertex
 }
 
-void read_mesh(const std::string& file, Mesh& mesh)
+Polygon_soup read_mesh(const std::string& file, Mesh& mesh)
 {
-  Triangle_soup soup = read_soup(file);
+  Polygon_soup soup = read_soup(file);
   check_soup(soup, file);
   build_mesh(soup, file, mesh);
+  return soup;
 }
 
 bool is_on_border(const Mesh& mesh, Vertex v)

@@ -9,6 +9,7 @@
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/options.h"
 #include "../include/flatten_mesh/Output_files.h"
+#include "../include/flatten_mesh/Polygon_soup.h"
 #include "../include/flatten_mesh/solve.h"
 #include "../include/flatten_mesh/Stopwatch.h"
 #include "../include/flatten_mesh/write_outputs.h"
@@ -111,7 +112,7 @@ void run(const Options& options, std::ostream& out, std::ostream& err)
   const CE::Working_precision precision(options.precision_in_bits);
   const Stopwatch watch;
   Mesh mesh;
-  read_mesh(options.input, mesh);
+  const Polygon_soup soup = read_mesh(options.input, mesh);
   Figures figures;
   figures.reading_seconds = watch.seconds();
 
@@ -136,6 +137,8 @@ void run(const Options& options, std::ostream& out, std::ostream& err)
   write_outputs(options, mesh, drawn, beside, figures, files);
   if(options.quiet)
     return;
+  for(const std::string& notice : soup.notices)
+    err << "flatten_mesh: " << one_line(text(options.input, ": ", notice)) << std::endl;
   print_summary(out, options, mesh, figures);
   if(! figures.image.lost_faces.empty())
     err << "flatten_mesh: " << one_line(lost_triangles(options, figures)) << std::endl;
