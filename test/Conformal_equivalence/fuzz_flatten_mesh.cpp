@@ -20,7 +20,6 @@
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/flatten_mesh.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/messages.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/read_soup.h"
-#include "../../examples/Conformal_equivalence/include/flatten_mesh/Triangle_soup.h"
 
 #include <CGAL/assertions_behaviour.h>
 
@@ -399,7 +398,11 @@ inline std::string fault(const Input& input, const Folder& folder, const Program
 // Valid inputs to begin with
 // ------------------------------------------------------------------------------------------------
 
-typedef flattening::Triangle_soup Soup;
+struct Soup
+{
+  std::vector<std::array<double, 3> > points;
+  std::vector<std::array<std::uint32_t, 3> > triangles;
+};
 typedef std::array<int, 3> Cube;
 
 inline Soup grid(std::uint32_t n, double height, double stretch)

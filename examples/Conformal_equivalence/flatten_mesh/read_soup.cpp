@@ -5,7 +5,10 @@
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/Scanner.h"
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
@@ -52,9 +55,9 @@ std::uint32_t checked_index(std::int64_t i, std::size_t number_of_vertices, std:
   return static_cast<std::uint32_t>(i);
 }
 
-[[noreturn]] void fail_not_a_triangle(const std::string& where, std::size_t face, double n)
+[[noreturn]] void fail_with_number_of_vertices(const std::string& where, std::size_t face, double n)
 {
-  fail(where, ": face ", face, " has ", n, " vertices; only triangle meshes can be flattened");
+  fail(where, ": face ", face, " has ", n, " vertices");
 }
 
 std::string place(const Scanner& in) { return text(in.file(), ": line ", in.line()); }
@@ -78,16 +81,16 @@ bool read_off_key_word(Scanner& in)
   return key.find('4') != std::string_view::npos;
 }
 
-Triangle_soup read_off(std::string_view content, const std::string& file)
+Polygon_soup read_off(std::string_view content, const std::string& file)
 {
   Scanner in(content, file, '#');
   const bool is_homogeneous = read_off_key_word(in);
   const std::int64_t nv = in.integer(), nf = in.integer_in_line();
   in.skip_line();
 
-  Triangle_soup soup;
+  Polygon_soup soup;
   soup.points.resize(announced_number(nv, "vertices", 6, in.size() - in.position(), file));
-  soup.triangles.resize(announced_number(nf, "faces", 8, in.size() - in.position(), file));
+  soup.faces.resize(announced_number(nf, "faces", 8, in.size() - in.position(), file));
   for(std::size_t v = 0; v < soup.points.size(); ++v)
   {
     if(in.at_end())
@@ -102,19 +105,19 @@ Triangle_soup read_off(std::string_view content, const std::string& file)
     }
     in.skip_line(); // normals, colors, texture coordinates
   }
-  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+  for(std::size_t f = 0; f < soup.faces.size(); ++f)
   {
     if(in.at_end())
       fail(file, ": is cut off: it ends after ", f, " of ", nf, " faces");
     const std::int64_t n = in.integer_in_line();
-    if(n != 3)
-      fail_not_a_triangle(place(in), f, double(n));
-    for(std::uint32_t& i : soup.triangles[f])
+    if(n < 1)
+      fail_with_number_of_vertices(place(in), f, double(n));
+    for(std::int64_t i = 0; i < n; ++i)
     {
       const std::int64_t index = in.integer_in_line();
       if(index < 0 || index >= nv)
         checked_index(index, soup.points.size(), f, place(in));
-      i = static_cast<std::uint32_t>(index);
+      soup.faces[f].push_back(static_cast<std::uint32_t>(index));
     }
     in.skip_line();
   }
@@ -134,12 +137,12 @@ std::int64_t obj_vertex(Scanner& in, std::size_t number_of_points)
   return i > 0 ? i - 1 : static_cast<std::int64_t>(number_of_points) + i;
 }
 
-Triangle_soup read_obj(std::string_view content, const std::string& file)
+Polygon_soup read_obj(std::string_view content, const std::string& file)
 {
   Scanner in(content, file, '#');
-  Triangle_soup soup;
+  Polygon_soup soup;
   std::vector<std::size_t> lines; // of the faces: a face may come before its vertices
-  std::vector<std::array<std::int64_t, 3> > faces;
+  std::vector<boost::container::small_vector<std::int64_t, 4> > faces;
   for(; ! in.at_end(); in.skip_line())
   {
     const std::string_view key = in.word();
@@ -153,26 +156,21 @@ Triangle_soup read_obj(std::string_view content, const std::string& file)
     {
       faces.emplace_back();
       lines.push_back(in.line());
-      std::int64_t n = 0;
-      for(; ! in.at_end_of_line(); ++n)
-      {
-        const std::int64_t v = obj_vertex(in, soup.points.size());
-        if(n < 3)
-          faces.back()[static_cast<std::size_t>(n)] = v;
-      }
-      if(n != 3)
-        fail_not_a_triangle(place(in), faces.size() - 1, double(n));
+      while(! in.at_end_of_line())
+        faces.back().push_back(obj_vertex(in, soup.points.size()));
+      if(faces.back().empty())
+        fail_with_number_of_vertices(place(in), faces.size() - 1, 0);
     }
   }
   for(std::size_t f = 0; f < faces.size(); ++f)
   {
-    soup.triangles.emplace_back();
-    for(std::size_t k = 0; k < 3; ++k)
+    soup.faces.emplace_back();
+    for(std::int64_t v : faces[f])
     {
-      if(faces[f][k] < 0 || faces[f][k] >= static_cast<std::int64_t>(soup.points.size()))
-        fail(file, ": line ", lines[f], ": face ", f, " names the vertex ", faces[f][k] + 1,
+      if(v < 0 || v >= static_cast<std::int64_t>(soup.points.size()))
+        fail(file, ": line ", lines[f], ": face ", f, " names the vertex ", v + 1,
              " (counted from 1), but there are ", soup.points.size(), " vertices");
-      soup.triangles[f][k] = static_cast<std::uint32_t>(faces[f][k]);
+      soup.faces[f].push_back(static_cast<std::uint32_t>(v));
     }
   }
   return soup;
@@ -181,7 +179,7 @@ Triangle_soup read_obj(std::string_view content, const std::string& file)
 // --- STL ----------------------------------------------------------------------------------------
 
 // Gives equal points one number, in the order in which they first come.
-void merge_equal_points(Triangle_soup& soup)
+void merge_equal_points(Polygon_soup& soup)
 {
   const auto& points = soup.points;
   std::vector<std::uint32_t> order(points.size()), first(points.size());
@@ -200,17 +198,21 @@ void merge_equal_points(Triangle_soup& soup)
     number[i] = first[i] == i ? static_cast<std::uint32_t>(kept.size() - 1) : number[first[i]];
   }
   soup.points = std::move(kept);
-  for(auto& t : soup.triangles)
-    for(std::uint32_t& i : t)
+  for(Polygon& face : soup.faces)
+    for(std::uint32_t& i : face)
       i = number[i];
 }
 
-void add_stl_point(Triangle_soup& soup, double x, double y, double z)
+void add_stl_point(Polygon_soup& soup, double x, double y, double z)
 {
   soup.points.push_back({{ x, y, z }});
   const std::uint32_t i = static_cast<std::uint32_t>(soup.points.size() - 1);
   if(i % 3 == 2)
-    soup.triangles.push_back({{ i - 2, i - 1, i }});
+  {
+    soup.faces.emplace_back();
+    for(std::uint32_t k = i - 2; k <= i; ++k)
+      soup.faces.back().push_back(k);
+  }
 }
 
 template <typename T>
@@ -226,9 +228,9 @@ T from_bytes(const char* bytes, bool reverse = false)
 }
 
 // The header has 80 bytes, each triangle 50: the normal, three points, two bytes more.
-Triangle_soup read_binary_stl(std::string_view content)
+Polygon_soup read_binary_stl(std::string_view content)
 {
-  Triangle_soup soup;
+  Polygon_soup soup;
   for(std::size_t at = 84; at + 50 <= content.size(); at += 50)
     for(std::size_t k = 1; k <= 3; ++k)
     {
@@ -239,10 +241,10 @@ Triangle_soup read_binary_stl(std::string_view content)
   return soup;
 }
 
-Triangle_soup read_text_stl(std::string_view content, const std::string& file)
+Polygon_soup read_text_stl(std::string_view content, const std::string& file)
 {
   Scanner in(content, file, '\0');
-  Triangle_soup soup;
+  Polygon_soup soup;
   if(in.word() != "solid")
     fail(file, ": is neither text nor binary STL, or is cut off");
   in.skip_line();
@@ -261,7 +263,7 @@ Triangle_soup read_text_stl(std::string_view content, const std::string& file)
     else if(key == "endfacet")
     {
       if(corners != 3)
-        fail_not_a_triangle(place(in), soup.triangles.size(), double(corners));
+        fail(place(in), ": face ", soup.faces.size(), " has ", corners, " vertices, and not three");
       corners = 0;
     }
     else if(key == "solid" || key == "endsolid")
@@ -272,7 +274,7 @@ Triangle_soup read_text_stl(std::string_view content, const std::string& file)
   return soup;
 }
 
-Triangle_soup read_stl(std::string_view content, const std::string& file)
+Polygon_soup read_stl(std::string_view content, const std::string& file)
 {
   // A binary file may begin with "solid", too: its size tells.
   bool is_binary = false;
@@ -281,7 +283,7 @@ Triangle_soup read_stl(std::string_view content, const std::string& file)
     const std::uint64_t n = from_bytes<std::uint32_t>(content.data() + 80, is_big_endian());
     is_binary = content.size() == 84 + 50 * n;
   }
-  Triangle_soup soup = is_binary ? read_binary_stl(content) : read_text_stl(content, file);
+  Polygon_soup soup = is_binary ? read_binary_stl(content) : read_text_stl(content, file);
   check_points(soup, file); // before points are compared
   merge_equal_points(soup);
   return soup;
@@ -416,7 +418,7 @@ Ply_header read_ply_header(Scanner& in)
   return header;
 }
 
-void read_ply_vertices(Ply_numbers& numbers, const Ply_element& element, Triangle_soup& soup)
+void read_ply_vertices(Ply_numbers& numbers, const Ply_element& element, Polygon_soup& soup)
 {
   for(auto& p : soup.points)
     for(const Ply_property& property : element.properties)
@@ -437,20 +439,20 @@ bool is_vertex_list(const Ply_property& p)
   return p.is_list && (p.name == "vertex_indices" || p.name == "vertex_index");
 }
 
-void read_ply_faces(Ply_numbers& numbers, const Ply_element& element, Triangle_soup& soup)
+void read_ply_faces(Ply_numbers& numbers, const Ply_element& element, Polygon_soup& soup)
 {
-  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+  for(std::size_t f = 0; f < soup.faces.size(); ++f)
     for(const Ply_property& property : element.properties)
     {
       const double n = property.is_list ? numbers.next(property.size_type) : 1.;
-      if(is_vertex_list(property) && n != 3)
-        fail_not_a_triangle(numbers.place(), f, n);
+      if(is_vertex_list(property) && ! (n >= 1))
+        fail_with_number_of_vertices(numbers.place(), f, n);
       for(std::size_t i = 0; double(i) < n; ++i)
       {
         const double x = numbers.next(property.type);
         if(is_vertex_list(property))
-          soup.triangles[f][i] = checked_index(x == std::floor(x) && std::fabs(x) < 1e18 ? static_cast<std::int64_t>(x) : -1,
-                                               soup.points.size(), f, numbers.place());
+          soup.faces[f].push_back(checked_index(x == std::floor(x) && std::fabs(x) < 1e18 ? static_cast<std::int64_t>(x) : -1,
+                                                soup.points.size(), f, numbers.place()));
       }
     }
 }
@@ -481,7 +483,7 @@ void require_ply_properties(const Ply_header& header, const std::string& file)
   }
 }
 
-Triangle_soup read_ply(std::string_view content, const std::string& file)
+Polygon_soup read_ply(std::string_view content, const std::string& file)
 {
   Scanner in(content, file, '\0');
   const Ply_header header = read_ply_header(in);
@@ -490,7 +492,7 @@ Triangle_soup read_ply(std::string_view content, const std::string& file)
   require_ply_properties(header, file);
   Ply_numbers numbers(in, content, header.format == "ascii",
                       (header.format == "binary_big_endian") != is_big_endian());
-  Triangle_soup soup;
+  Polygon_soup soup;
   for(const Ply_element& element : header.elements)
   {
     const std::size_t n = announced_number(element.number, "elements", 1, content.size(), file);
@@ -499,9 +501,9 @@ Triangle_soup read_ply(std::string_view content, const std::string& file)
       soup.points.resize(n);
       read_ply_vertices(numbers, element, soup);
     }
-    else if(element.name == "face" && soup.triangles.empty())
+    else if(element.name == "face" && soup.faces.empty())
     {
-      soup.triangles.resize(n);
+      soup.faces.resize(n);
       read_ply_faces(numbers, element, soup);
     }
     else
@@ -522,13 +524,37 @@ std::string lower_case_extension(const std::string& file)
 
 } // namespace
 
-// Reads the file in the format that its extension names.
-Triangle_soup read_soup(const std::string& file)
+namespace {
+
+// The extension that files with this content have, as their first word tells. That of OBJ and of binary STL is arbitrary.
+std::string extension_of_content(const std::string& content)
 {
-  const std::string extension = lower_case_extension(file);
+  Scanner in(content, "-", '#');
+  const std::string_view word = in.word();
+  if(word == "ply")
+    return ".ply";
+  if(word == "solid")
+    return ".stl";
+  if(word.size() >= 3 && word.substr(word.size() - 3) == "OFF")
+    return ".off";
+  return content.find('\0') == std::string::npos ? ".obj" : ".stl";
+}
+
+} // namespace
+
+// Reads the file in the format that its extension names; the standard input in that of its content.
+Polygon_soup read_soup(const std::string& file)
+{
+  std::string extension = lower_case_extension(file), content;
+  if(file == "-")
+  {
+    content = read_file(file);
+    extension = extension_of_content(content);
+  }
   if(extension != ".off" && extension != ".obj" && extension != ".stl" && extension != ".ply")
     fail(file, ": unknown extension '", extension, "'; known are .off, .obj, .ply and .stl");
-  const std::string content = read_file(file);
+  if(file != "-")
+    content = read_file(file);
   if(content.empty())
     fail(file, ": the file is empty");
   if(extension == ".off")

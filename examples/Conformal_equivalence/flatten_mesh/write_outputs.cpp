@@ -14,10 +14,14 @@
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
+#include <CGAL/boost/graph/properties.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <ostream>
 #include <string>
 #include <system_error>
@@ -32,24 +36,81 @@ std::string name_without_folder(const std::string& file)
   return std::filesystem::path(file).filename().string();
 }
 
-// The mesh with these points; numbers with as many digits as it takes to read them back.
+// A vertex with this point, with as many digits as it takes to read it back.
+template <typename Point>
+void write_vertex(Text_buffer& buffer, const Point& point)
+{
+  buffer << 'v';
+  for(const auto& x : point)
+    CE::internal::write_obj_number(buffer << ' ', x);
+  buffer << '\n';
+}
+
+// The mesh with these points.
 template <typename Point>
 bool write_sphere_OBJ(std::ostream& out, const Mesh& mesh, const std::vector<Point>& points)
 {
   {
     Text_buffer buffer(out);
     for(Vertex v : mesh.vertices())
-    {
-      buffer << 'v';
-      for(const auto& x : points[v.idx()])
-        CE::internal::write_obj_number(buffer << ' ', x);
-      buffer << '\n';
-    }
+      write_vertex(buffer, points[v.idx()]);
     for(Face f : mesh.faces())
     {
       buffer << 'f';
       for(Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
         buffer << ' ' << v.idx() + 1;
+      buffer << '\n';
+    }
+  }
+  out.flush();
+  return out.good();
+}
+
+// The vertices and faces of the file with these points, by vertex of the mesh. Copies that --repair has made of vertices follow.
+template <typename Point>
+bool write_sphere_OBJ(std::ostream& out, const Given_surface& given, const Mesh& mesh, const std::vector<Point>& points)
+{
+  const std::vector<std::vector<Halfedge> > corners = corners_in_mesh(given, mesh);
+  {
+    Text_buffer buffer(out);
+    for(Vertex v : mesh.vertices())
+      write_vertex(buffer, points[given.representative_of(v.idx())]);
+    for(std::size_t f = 0; f < corners.size(); ++f)
+    {
+      buffer << 'f';
+      for(std::size_t k = 0; k < corners[f].size(); ++k)
+      {
+        const Vertex v = mesh.target(corners[f][k]);
+        buffer << ' ' << (v.idx() < given.number_of_vertices ? std::size_t(given.soup.faces[f][k]) : std::size_t(v.idx())) + 1;
+      }
+      buffer << '\n';
+    }
+  }
+  out.flush();
+  return out.good();
+}
+
+// The vertices and faces of the file, with the layout `uv` of the mesh as texture coordinates: each corner of a face has one.
+template <typename Uv, typename Weights>
+bool write_given_OBJ(std::ostream& out, const Given_surface& given, const Mesh& mesh, const Uv& uv, const Weights& weights,
+                     const CE::IO::OBJ_material& material)
+{
+  const std::vector<std::vector<Halfedge> > corners = corners_in_mesh(given, mesh);
+  const auto number = get(CGAL::dynamic_halfedge_property_t<std::size_t>(), mesh);
+  {
+    Text_buffer buffer(out);
+    if(! material.file.empty())
+      buffer << "mtllib " << material.file << '\n';
+    for(const auto& point : given.soup.points)
+      write_vertex(buffer, point);
+    CE::internal::write_obj_texture_coordinates(buffer, mesh, uv, weights, number);
+    if(! material.file.empty())
+      buffer << "usemtl " << material.name << '\n';
+    for(std::size_t f = 0; f < corners.size(); ++f)
+    {
+      buffer << 'f';
+      for(std::size_t k = 0; k < corners[f].size(); ++k)
+        buffer << ' ' << given.soup.faces[f][k] + 1 << '/' << get(number, corners[f][k]) + 1;
       buffer << '\n';
     }
   }
@@ -157,27 +218,33 @@ UV_map page_layout(const Figures& figures, const Result& result)
 // The material of a texture of squares, its squares half as wide as a tile and one of them in the centre of each, so that it fits across seams.
 void write_tile_material(std::ostream& out, const std::string& name, const std::string& texture)
 {
-  out << "newmtl " << name << "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd -o 0.25 0.25 -s 1 1 1 " << texture << '\n';
+  out << material_beginning(name) << "-o 0.25 0.25 -s 1 1 1 " << texture << '\n';
 }
 
-void write_sphere(const Options& options, const Result& result, Output_files& files)
+void write_sphere(const Options& options, const Given_surface* given, const Result& result, Output_files& files)
 {
   files.write(options.obj, [&](std::ostream& out)
   {
-    return result.wide_image.empty() ? write_sphere_OBJ(out, result.mesh, result.image) : write_sphere_OBJ(out, result.mesh, result.wide_image);
+    const auto write = [&](const auto& points)
+      { return given ? write_sphere_OBJ(out, *given, result.mesh, points) : write_sphere_OBJ(out, result.mesh, points); };
+    return result.wide_image.empty() ? write(result.image) : write(result.wide_image);
   });
 }
 
-void write_obj(const Options& options, const Result& result, const Material_files& beside, Output_files& files)
+// Writes the faces of the file, unless `given` is null: then those of the mesh.
+void write_obj(const Options& options, const Given_surface* given, const Result& result, const Material_files& beside, Output_files& files)
 {
   if(options.target == Target::SPHERE)
-    return write_sphere(options, result, files);
+    return write_sphere(options, given, result, files);
   CE::IO::OBJ_material material;
   material.file = name_without_folder(beside.material);
   files.write(options.obj, [&](std::ostream& out)
   {
     const auto write = [&](const auto& uv)
     {
+      if(given)
+        return options.projective ? write_given_OBJ(out, *given, result.mesh, uv, result.weight, material)
+                                  : write_given_OBJ(out, *given, result.mesh, uv, CGAL::internal_np::Param_not_found(), material);
       return options.projective
         ? CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::projective_weight_map(result.weight), material)
         : CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::default_values(), material);
@@ -198,6 +265,19 @@ void write_obj(const Options& options, const Result& result, const Material_file
   files.write(beside.texture, [](std::ostream& out) { return write_checkerboard_PNG(out); });
 }
 
+// A material file is overwritten only if this program has written it.
+bool may_be_overwritten(const std::string& material)
+{
+  std::error_code ignored;
+  if(! std::filesystem::exists(material, ignored))
+    return true;
+  const std::string beginning = material_beginning(CE::IO::OBJ_material().name);
+  std::ifstream in(material, std::ios::binary);
+  std::string found(beginning.size(), '\0');
+  in.read(&found[0], static_cast<std::streamsize>(found.size()));
+  return in.good() && found == beginning;
+}
+
 } // namespace
 
 Material_files::Material_files(const std::string& obj)
@@ -206,8 +286,17 @@ Material_files::Material_files(const std::string& obj)
   std::error_code ignored;
   if(path.extension().empty() || (std::filesystem::exists(path, ignored) && ! std::filesystem::is_regular_file(path, ignored)))
     return; // a device, for example
-  material = std::filesystem::path(path).replace_extension(".mtl").string();
-  texture = std::filesystem::path(path).replace_extension(".checker.png").string();
+  const auto beside = [&](const char* extension) { return std::filesystem::path(path).replace_extension(extension).string(); };
+  material = beside(".mtl");
+  if(! may_be_overwritten(material))
+  {
+    foreign_material = material;
+    material = beside(".layout.mtl");
+    if(! may_be_overwritten(material))
+      fail("the material files ", foreign_material, " and ", material, " are there, and were not written by this program; neither is overwritten "
+           "(give -o another name, or remove one)");
+  }
+  texture = beside(".checker.png");
 }
 
 void announce_outputs(const Options& options, const Material_files& beside, Output_files& files)
@@ -230,12 +319,16 @@ void write_outputs(const Options& options, const Mesh& mesh, Result& result, con
                           Figures& figures, Output_files& files)
 {
   const Stopwatch watch;
+  const bool has_faces_of_file = &result.mesh == &mesh && ! figures.given->is_mesh();
   if(! options.obj.empty())
-    write_obj(options, result, beside, files);
+    write_obj(options, has_faces_of_file ? figures.given : nullptr, result, beside, files);
   if(! options.svg.empty() || ! options.html.empty())
   {
     const Face_map<double> colors = face_colors(options, result);
-    const HTML_options drawing = drawing_options(options, mesh, figures);
+    HTML_options drawing = drawing_options(options, mesh, figures);
+    if(has_faces_of_file)
+      for(Mesh::Edge_index e : mesh.edges())
+        drawing.svg.hidden_edges.push_back(is_diagonal(*figures.given, mesh, e));
     const UV_map layout = options.target == Target::SPHERE ? hemispheres(result) : result.uv;
     if(! options.svg.empty())
       files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, drawing.svg); });

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Readers of OFF, OBJ, STL and PLY that name the line and the element at fault. They
-// keep the vertices as they are, except that of STL, whose triangles repeat
+// keep the vertices as they are, except that of STL, whose faces repeat
 // their points: there equal points become one vertex.
 
 #ifndef FLATTEN_MESH_READ_SOUP_H
 #define FLATTEN_MESH_READ_SOUP_H
 
-#include "Triangle_soup.h"
+#include "Polygon_soup.h"
 
 #include <string>
 
@@ -17,7 +17,7 @@ namespace flattening {
 // Whether the machine's numbers begin with their most significant byte.
 bool is_big_endian();
 
-Triangle_soup read_soup(const std::string& file);
+Polygon_soup read_soup(const std::string& file);
 
 } // namespace flattening
 

@@ -18,7 +18,10 @@ namespace flattening {
 struct Material_files
 {
   std::string material, texture;
+  std::string foreign_material; // is in the place of the material, and is kept: it was not written by this program
 
+
+  // Throws a `Failure` if there is no place for the material.
   explicit Material_files(const std::string& obj);
 };
 
