@@ -20,7 +20,6 @@
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/flatten_mesh.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/messages.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/read_soup.h"
-#include "../../examples/Conformal_equivalence/include/flatten_mesh/Triangle_soup.h"
 
 #include <CGAL/assertions_behaviour.h>
 
@@ -504,7 +503,11 @@ inline std::string fault(const Input& input, const Folder& folder, const Program
 // Valid inputs to begin with
 // ------------------------------------------------------------------------------------------------
 
-typedef flattening::Triangle_soup Soup;
+struct Soup
+{
+  std::vector<std::array<double, 3> > points;
+  std::vector<std::array<std::uint32_t, 3> > triangles;
+};
 typedef std::array<int, 3> Cube;
 
 inline Soup grid(std::uint32_t n, double height, double stretch)
@@ -851,11 +854,11 @@ inline std::vector<Input> valid_inputs()
   add_in_all_formats(with_cones(conditions(NOT_GIVEN, 2, 0, "", "0 180\n1 180\n2 180\n3 180\n"), cone_choice(SEAMLESS_FILE, 1, HALF_TURNS)),
                      octahedron(), inputs);
   add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), cone_choice(SEAMLESS_WITHIN_BOUND, 1)), grid(4, 0.3, 1), inputs);
-  for(Way w : {SPHERE, SPHERE_OF_AREAS, SPHERE_BY_VERTEX, SPHERE_WITH_DIGITS})
-    add_in_all_formats(with_way(conditions(NOT_GIVEN, 2, 0), w, 3), w == SPHERE ? cubes(one) : octahedron(), inputs);
+  for(Way w : {SPHERE, SPHERE_OF_AREAS, SPHERE_BY_VERTEX, SPHERE_WITH_DIGITS, REPAIR_TO_SPHERE})
+    add_in_all_formats(with_way(conditions(NOT_GIVEN, 2, 0), w, 3), w == SPHERE || w == REPAIR_TO_SPHERE ? cubes(one) : octahedron(), inputs);
   for(Way w : {DISK, DISK_OF_AREAS, DISK_BY_VERTEX, DISK_AROUND_VERTEX, DISK_OF_POINTS, DISK_WITH_DIGITS})
     add_in_all_formats(with_way(conditions(NOT_GIVEN, 1, 0, "", "", "", "0,1,2"), w, w == DISK_AROUND_VERTEX ? 5 : 0), grid(3, 0.3, 1), inputs);
-  for(Way w : {DIGITS, KEPT_BORDER, LOCAL_REPAIR, MOLLIFICATION})
+  for(Way w : {DIGITS, KEPT_BORDER, LOCAL_REPAIR, MOLLIFICATION, REPAIR, REPAIR_TO_DISK})
     add_in_all_formats(with_way(conditions(NATURAL, 0, 0), w), grid(4, 0.3, 1), inputs);
   return inputs;
 }

@@ -8,7 +8,9 @@
 #include "include/check_flattening.h"
 #include "include/program_runs.h"
 
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/Given_surface.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/mesh.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/Output_files.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/page_text.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/PNG.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/read_soup.h"
@@ -33,14 +35,22 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <limits>
 #include <map>
 #include <random>
 #include <set>
 #include <sstream>
+#include <streambuf>
 #include <string>
 #include <utility>
 #include <vector>
+
+#if defined(__unix__) || defined(__APPLE__)
+#  include <csignal>
+#  include <sys/wait.h>
+#  include <unistd.h>
+#endif
 
 namespace fs = std::filesystem;
 using namespace program;
@@ -93,7 +103,7 @@ BOOST_AUTO_TEST_CASE(checker_refuses_other_maps)
   const Folder folder;
   const std::string input = folder.write("grid.off", as_off(bumpy_grid(12)));
   Mesh mesh;
-  flattening::read_mesh(input, mesh);
+  flattening::read_surface(input, false, mesh);
   BOOST_TEST(! judge(input, write_map_of(mesh, SMP::LSCM_parameterizer_3<Mesh>(), folder / "lscm.obj")).is_good());
   BOOST_TEST(! judge(input, write_map_of(mesh, SMP::ARAP_parameterizer_3<Mesh>(), folder / "arap.obj")).is_good());
 
@@ -261,7 +271,7 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.off", off(square, "3 0 1 2\n3 0 2 4\n"), "line 8: face 1 names the vertex 4, but there are 4 vertices"},
     {"a.off", off(square, "3 0 1 2\n3 0 2 -1\n"), "face 1 names the vertex -1"},
     {"a.off", off(square, "3 0 1 2\n3 0 2\n"), "line 8: expected an integer"},
-    {"a.off", off(square, "3 0 1 2\n2 0 1\n"), "face 1 has only 2 vertices"},
+    {"a.off", off(square, "3 0 1 2\n2 0 1\n"), "face 1 has only 2 vertices (--repair"},
     {"a.off", off(square, "3 0 1 2\n0\n"), "line 8: face 1 has no vertices"},
     {"a.off", off(square, two) + "3 0 1 2\n", "line 9: there is more than the 4 vertices and 2 faces that are announced"},
     {"a.off", "OFF\n4 2 0\n" + square + "0 0 1\n" + two, "line 7: face 0 has no vertices"}, // another vertex than announced
@@ -269,13 +279,13 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.off", off("0 0 0 red\n1 0 0\n0 1 0\n", "3 0 1 2\n"), "line 3: expected a number, found 'red'"},
     {"a.off", off("0 0 0\n1 0 0\n0 1 1.#INF\n", "3 0 1 2\n"), "line 5: expected a number, found '1.#INF'"},
     {"a.off", "\xFF\xFEO\0F\0F\0", "is encoded in UTF-16 or UTF-32; convert it to UTF-8"},
-    {"a.off", off(square, "3 0 1 2\n3 0 2 2\n"), "face 1 has the vertex 2 twice"},
+    {"a.off", off(square, "3 0 1 2\n3 0 2 2\n"), "face 1 has the vertex 2 twice (--repair"},
     {"a.off", off(square, ""), "there are no faces"},
-    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 1 0 3\n3 0 1 4\n"), "not a manifold: the edge 0-1 lies in 3 faces"},
-    {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 2 0 1\n"), "the faces 0 and 2 have opposite orientations at the edge 0-1"},
-    {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 1 0 3\n"), "opposite orientations at the edge"},
-    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 0 3 4\n"), "not a manifold: the faces at the vertex 0 form more than one fan"},
-    {"a.off", off("0 0 0\n1 0 0\n1 0 0\n0 1 0\n", two), "edge"},
+    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 1 0 3\n3 0 1 4\n"), "not a manifold: the edge 0-1 lies in 3 faces (0, 2, ...) (--repair"},
+    {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 2 0 1\n"), "the faces 0 and 2 have the same vertices (--repair"},
+    {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 1 0 3\n"), "have opposite orientations at the edge 0-3 (--repair"},
+    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 0 3 4\n"), "not a manifold: the faces at the vertex 0 form more than one fan (--repair"},
+    {"a.off", off("0 0 0\n1 0 0\n1 0 0\n0 1 0\n", two), "edges of length zero; edge 1-2 (--repair merges equal points; --mollify"},
     {"a.off", off("0 0 0\n1 0 0\n0 1 0\n0 0 1\n", "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"), "closed surface of genus other than 1 needs cones"},
     {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: face 0 names the vertex 4 (counted from 1)"},
     {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "line 4"},
@@ -315,13 +325,13 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.ply", ply("element vertex 3\nproperty float x\nproperty float y\nproperty float x\nproperty float z\n", ""), "'vertex' have the property 'x' twice"},
     {"a.ply", ply(vertices + vertices, ""), "announces the elements 'vertex' twice"},
     {"a.ply", ply(vertices + "element face 1\nproperty list uchar int corners\n", ""), "the elements 'face' have no list 'vertex_indices'"},
-    {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n"), "line 13: there is more than the elements that the header announces"},
-    {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0 0\n3 0 1 2\n"), "line 11: there are more numbers than the header has properties"},
-    {"a.ply", ply(vertices + faces, "0 0 0\n1 0\n0\n0 1 0\n3 0 1 2\n"), "line 10: expected a number, found the end of the line"},
+    {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n"), "line 14: there is more than the elements that the header announces"},
+    {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0 0\n3 0 1 2\n"), "line 12: there are more numbers than the header has properties"},
+    {"a.ply", ply(vertices + faces, "0 0 0\n1 0\n0\n0 1 0\n3 0 1 2\n"), "line 11: expected a number, found the end of the line"},
     {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n"), "face 0 names the vertex 1.5"},
     {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n-1 0 1 2\n"), "a list 'vertex_indices' of -1 values"},
     {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n2.5 0 1 2\n"), "a list 'vertex_indices' of 2.5 values"},
-    {"a.ply", ply(faces + vertices, "3 0 1 3\n0 0 0\n1 0 0\n0 1 0\n"), "line 9: face 0 names the vertex 3, but there are 3 vertices"},
+    {"a.ply", ply(faces + vertices, "3 0 1 3\n0 0 0\n1 0 0\n0 1 0\n"), "line 10: face 0 names the vertex 3, but there are 3 vertices"},
     {"a.ply", ply(vertices + "element tristrips 1\nproperty list int int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 -2\n"), "face 1 names the vertex -2"},
     {"a.ply", as_binary_ply(bumpy_grid(2), true) + "\3", "there is more than the elements that the header announces"},
     {"a.ply", as_binary_ply(bumpy_grid(2), false).substr(0, 400), "is cut off"} };
@@ -368,7 +378,10 @@ std::string with_continued_lines(const std::string& content, const std::string& 
   for(std::string line; std::getline(in, line); )
   {
     if(line[0] == 'v' || line[0] == 'f')
-      line = line.substr(0, 1) + "\\" + end + line.substr(1, line.rfind(' ') - 1) + "  \\" + end + line.substr(line.rfind(' ') + 1);
+    {
+      const std::size_t first = line.find(' '), last = line.rfind(' ');
+      line = line.substr(0, first) + "\\" + end + line.substr(first, last - first) + "  \\" + end + line.substr(last + 1);
+    }
     result += line + end;
   }
   return result;
@@ -543,7 +556,7 @@ BOOST_AUTO_TEST_CASE(large_fan)
   const std::string input = folder.write("fan.off", as_off(soup));
   const std::clock_t begin = std::clock();
   Mesh mesh;
-  flattening::read_mesh(input, mesh);
+  flattening::read_surface(input, false, mesh);
   BOOST_TEST(double(std::clock() - begin) / CLOCKS_PER_SEC < 6);
   BOOST_TEST(mesh.number_of_faces() == n);
   BOOST_TEST(mesh.is_valid(false));
@@ -569,6 +582,337 @@ BOOST_AUTO_TEST_CASE(damaged_files)
 }
 
 // ------------------------------------------------------------------------------------------------
+// Faces with more than three sides, and surfaces that are repaired
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+// An OBJ file, with faces of any number of sides.
+struct Obj
+{
+  typedef std::vector<std::size_t> Indices;
+  std::vector<std::array<double, 3> > points;
+  std::vector<std::array<double, 2> > places;
+  std::vector<Indices> faces, corners; // of each face the vertices, and the places in the layout
+
+  explicit Obj(const std::string& file)
+  {
+    std::ifstream in(file);
+    for(std::string line; std::getline(in, line); )
+    {
+      std::istringstream words(line);
+      std::string key;
+      words >> key;
+      if(key == "v" && points.emplace_back().size() != 0)
+        words >> points.back()[0] >> points.back()[1] >> points.back()[2];
+      else if(key == "vt" && places.emplace_back().size() != 0)
+        words >> places.back()[0] >> places.back()[1];
+      else if(key == "f")
+        read_face(words);
+    }
+  }
+
+  std::array<double, 2> place(std::size_t f, std::size_t k) const { return places.at(corners.at(f).at(k)); }
+
+  double area(std::size_t f) const
+  {
+    double sum = 0;
+    for(std::size_t k = 0; k < faces[f].size(); ++k)
+    {
+      const auto p = place(f, k), q = place(f, (k + 1) % faces[f].size());
+      sum += (p[0] * q[1] - p[1] * q[0]) / 2;
+    }
+    return sum;
+  }
+
+private:
+  void read_face(std::istringstream& words)
+  {
+    faces.emplace_back();
+    corners.emplace_back();
+    std::size_t v, vt;
+    char slash;
+    for(std::string corner; words >> corner; )
+    {
+      std::istringstream of_corner(corner);
+      of_corner >> v;
+      faces.back().push_back(v - 1);
+      if(of_corner >> slash >> vt)
+        corners.back().push_back(vt - 1);
+    }
+  }
+};
+
+// The largest difference of a distance between corners of the same face in the layout, in units of `scale`, and in space.
+double largest_difference_of_distances(const Obj& obj, double scale = 1)
+{
+  double largest = 0;
+  for(std::size_t f = 0; f < obj.faces.size(); ++f)
+    for(std::size_t j = 0; j < obj.faces[f].size(); ++j)
+      for(std::size_t k = 0; k < j; ++k)
+      {
+        const auto p = obj.place(f, j), q = obj.place(f, k);
+        const auto &x = obj.points.at(obj.faces[f][j]), &y = obj.points.at(obj.faces[f][k]);
+        largest = (std::max)(largest, std::abs(std::hypot(p[0] - q[0], p[1] - q[1]) / scale - std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2])));
+      }
+  return largest;
+}
+
+std::size_t number_of_borders(const Obj& obj)
+{
+  std::map<std::set<std::size_t>, int> sides;
+  for(const auto& c : obj.corners)
+    for(std::size_t k = 0; k < c.size(); ++k)
+      ++sides[{c[k], c[(k + 1) % c.size()]}];
+  return std::size_t(std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.second == 1; }));
+}
+
+// Runs the program, which succeeds, and reads what it has written.
+Obj flattened(const Folder& folder, const std::string& input, const std::vector<std::string>& options = {})
+{
+  const Run r = run(with({input, "-o", folder / "o.obj", "--quiet"}, options));
+  BOOST_TEST_CONTEXT(input << ": " << r.err)
+  BOOST_REQUIRE(r.status == 0);
+  return Obj(folder / "o.obj");
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+typedef std::map<std::string, std::size_t> Counts;
+
+// What was repaired, without what was not.
+Counts repairs(const Folder& folder, const std::string& input)
+{
+  const Run r = run({input, "--repair", "--quiet", "--report", folder / "o.json"});
+  BOOST_TEST_CONTEXT(input << ": " << r.err)
+  BOOST_REQUIRE(r.status == 0);
+  Counts counts;
+  const nlohmann::json report = json(folder / "o.json");
+  for(const auto& count : report["repair"].items())
+    if(count.value() != 0)
+      counts[count.key()] = count.value().get<std::size_t>();
+  return counts;
+}
+#endif
+
+} // namespace
+
+// On a sheet that is bent, and not stretched, the layout is an isometry of each face, whatever triangles are computed with.
+BOOST_AUTO_TEST_CASE(polygons_are_written_as_they_were)
+{
+  const Folder folder;
+  const std::string points = "0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 0\n3 0 1\n3 2 1\n3 1 1\n5 0 1\n4 .25 1\n5 2 1\n",
+                    faces = "5 0 1 2 3 4\n3 0 4 3\n5 1 5 7 6 2\n6 5 8 9 10 6 7\n";
+  const Obj obj = flattened(folder, folder.write("sheet.off", off(points, faces)));
+  const std::vector<Obj::Indices> expected = { {0, 1, 2, 3, 4}, {0, 4, 3}, {1, 5, 7, 6, 2}, {5, 8, 9, 10, 6, 7} };
+  BOOST_TEST((obj.faces == expected));
+  BOOST_TEST(obj.points.size() == 11u);
+  BOOST_TEST(obj.places.size() == 11u); // nothing is cut: one place a vertex
+  for(std::size_t f = 0; f < obj.faces.size(); ++f)
+  {
+    BOOST_TEST(obj.corners[f].size() == obj.faces[f].size());
+    BOOST_TEST(obj.area(f) > 0);
+  }
+  BOOST_TEST(largest_difference_of_distances(obj) < 1e-11); // lengths of 5 and residuals of 1e-12
+
+  // the same from other formats
+  std::ostringstream ply;
+  ply << "ply\nformat ascii 1.0\nelement vertex 11\nproperty double x\nproperty double y\nproperty double z\nelement face 4\n"
+      << "property list uchar int vertex_indices\nend_header\n" << points << faces;
+  const Obj from_ply = flattened(folder, folder.write("sheet.ply", ply.str()));
+  BOOST_TEST((from_ply.faces == expected));
+  BOOST_TEST((from_ply.places == obj.places));
+  const Obj again = flattened(folder, folder.write("again.obj", content(folder / "o.obj")));
+  BOOST_TEST((again.faces == expected));
+  BOOST_TEST((again.places == obj.places));
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(run({folder / "sheet.off", "--quiet", "--report", folder / "o.json"}).status == 0);
+  const nlohmann::json report = json(folder / "o.json");
+  BOOST_TEST(report["vertices"] == 11);
+  BOOST_TEST(report["faces"] == 4);
+  BOOST_TEST(report["triangles"] == 3 + 1 + 3 + 4);
+  BOOST_TEST(report["repair"].is_null());
+#endif
+}
+
+// A cube is flat but for its corners, cones of 270 degrees. Its squares are cut from each other along edges, and never along diagonals.
+BOOST_AUTO_TEST_CASE(polygons_are_not_cut)
+{
+  const Folder folder;
+  const std::string cube = folder.write("cube.off", off("0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n",
+    "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")), cones = folder.write("cones.txt", cone_lines({0, 1, 2, 3, 4, 5, 6, 7}, "270"));
+  for(const std::vector<std::string>& options : std::vector<std::vector<std::string> >{ {}, {"--precision", "100"}, {"--seamless", "--tiles", "6"} })
+  {
+    const Obj obj = flattened(folder, cube, with({"--cones", cones}, options));
+    BOOST_TEST(obj.faces.size() == 6u);
+    const double scale = std::sqrt(obj.area(0));
+    BOOST_TEST(largest_difference_of_distances(obj, scale) < 1e-10);
+    BOOST_TEST(number_of_borders(obj) == 14u); // twelve edges are cut but for the five between six squares in one piece
+  }
+  const Obj sphere = flattened(folder, cube, {"--target", "sphere"});
+  BOOST_TEST((sphere.faces == Obj(folder.write("c.obj", "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")).faces));
+  for(const auto& p : sphere.points)
+    BOOST_TEST(std::hypot(p[0], p[1], p[2]) == 1, boost::test_tools::tolerance(1e-14));
+}
+
+// Polygons that have no normal, or cross themselves, are divided, too.
+BOOST_AUTO_TEST_CASE(odd_polygons)
+{
+  const Folder folder;
+  const auto accepted = [&](const std::string& points, const std::string& faces)
+  {
+    const std::string input = folder.write("a.off", off(points, faces));
+    const Run r = run({input, "-o", folder / "o.obj", "--quiet"});
+    BOOST_TEST_CONTEXT(points << faces << r.err)
+    BOOST_TEST(r.status == 0);
+  };
+  accepted("0 0 0\n1 1 0\n1 0 0\n0 1 0\n", "4 0 1 2 3\n");                       // crosses itself, its normal is zero
+  accepted("0 0 0\n3 0 0\n1 2 0\n2 -1 0\n1.5 3 0\n", "5 0 1 2 3 4\n");           // crosses itself
+  accepted("0 0 0\n1 0 .5\n2 0 0\n2 1 .5\n2 2 0\n0 2 1\n", "6 0 1 2 3 4 5\n");  // is not flat
+}
+
+// Faces that share no vertices, as in many files: the layout is that of the surface, and vertices and faces are as they were.
+BOOST_AUTO_TEST_CASE(repair_merges_equal_points)
+{
+  const Folder folder;
+  const Soup soup = bumpy_grid(6);
+  Soup apart;
+  for(const auto& t : soup.triangles)
+  {
+    apart.triangles.emplace_back();
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      apart.triangles.back()[k] = static_cast<std::uint32_t>(apart.points.size());
+      apart.points.push_back(soup.points[t[k]]);
+    }
+  }
+  const Obj whole = flattened(folder, folder.write("whole.off", as_off(soup)));
+  const Obj obj = flattened(folder, folder.write("apart.off", as_off(apart)), {"--repair"});
+  BOOST_TEST((obj.points == apart.points));
+  BOOST_REQUIRE(obj.faces.size() == whole.faces.size());
+  double largest = 0;
+  for(std::size_t f = 0; f < obj.faces.size(); ++f)
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      BOOST_TEST(obj.faces[f][k] == 3 * f + k);
+      const auto p = obj.place(f, k), q = whole.place(f, k);
+      largest = (std::max)(largest, std::hypot(p[0] - q[0], p[1] - q[1]));
+    }
+  BOOST_TEST(largest < 1e-11); // the frame of the layout is canonical, and the diameter about 1
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const std::size_t inner_edges = (3 * soup.triangles.size() - 4 * 6) / 2;
+  BOOST_TEST((repairs(folder, folder / "apart.off")
+              == Counts{ {"merged_vertices", apart.points.size() - soup.points.size()}, {"stitched_edges", inner_edges} }));
+  BOOST_TEST((repairs(folder, folder / "whole.off") == Counts()));
+#endif
+
+  // a condition for any of the equal vertices is one for the point
+  const std::string angles = folder.write("angles.txt", std::to_string(obj.faces[2][0]) + " 150\n");
+  BOOST_TEST(run({folder / "apart.off", "--repair", "--quiet", "--boundary", "angles=" + angles}).status == 0);
+
+  // to the sphere: all copies of a point have the same image
+  const testing::Soup ball = testing::icosphere(1);
+  Soup pieces;
+  for(const auto& t : ball.triangles)
+  {
+    const std::uint32_t n = static_cast<std::uint32_t>(pieces.points.size());
+    pieces.triangles.push_back({{ n, n + 1, n + 2 }});
+    for(std::uint32_t v : t)
+      pieces.points.push_back(ball.points[v]);
+  }
+  const Obj sphere = flattened(folder, folder.write("ball.off", as_off(pieces)), {"--repair", "--target", "sphere"});
+  BOOST_REQUIRE(sphere.points.size() == pieces.points.size());
+  for(std::size_t i = 0; i < pieces.points.size(); ++i)
+    for(std::size_t j = 0; j < i; ++j)
+      BOOST_TEST((pieces.points[i] == pieces.points[j]) == (sphere.points[i] == sphere.points[j]));
+}
+
+// Faces that are dropped lie where their points lie; those that are turned are turned in the file, too.
+BOOST_AUTO_TEST_CASE(repair_of_faces)
+{
+  const Folder folder;
+  // two squares; the second upside down; the first again, from its other side; a face without area, and one that passes a point twice
+  const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n1 0 0\n3 0 0\n3 1 0\n";
+  const std::string input = folder.write("faces.off", off(points, "4 0 1 2 3\n4 1 2 5 4\n4 3 2 1 0\n3 1 6 2\n5 4 7 8 5 4\n2 0 1\n"));
+  check_refused({input}, 1, "--repair");
+  const Obj obj = flattened(folder, input, {"--repair"});
+  const std::vector<Obj::Indices> expected = { {0, 1, 2, 3}, {4, 5, 2, 1}, {0, 1, 2, 3}, {1, 6, 2}, {4, 7, 8, 5, 4}, {0, 1} };
+  BOOST_TEST((obj.faces == expected));
+  BOOST_TEST((obj.corners[2] == obj.corners[0]));
+  BOOST_TEST(obj.corners[3][0] == obj.corners[3][1]);
+  for(std::size_t f : {0, 1, 2, 4})
+    BOOST_TEST(obj.area(f) == 1, boost::test_tools::tolerance(1e-11));
+  BOOST_TEST(largest_difference_of_distances(obj) < 1e-11);
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST((repairs(folder, input) == Counts{ {"merged_vertices", 1}, {"degenerate_faces", 2}, {"duplicate_faces", 1}, {"turned_faces", 1} }));
+#endif
+
+  // a face that passes a vertex twice is divided there
+  const std::string pinched = folder.write("pinched.off", off("0 0 0\n1 0 0\n1 1 0\n-1 0 0\n-1 -1 0\n", "6 0 1 2 0 3 4\n"));
+  check_refused({pinched}, 1, "face 0 has the vertex 0 twice (--repair");
+  const Obj parts = flattened(folder, pinched, {"--repair"});
+  BOOST_TEST((parts.faces == std::vector<Obj::Indices>{ {0, 1, 2, 0, 3, 4} }));
+  BOOST_TEST(run({folder.write("nothing.off", off("0 0 0\n0 0 0\n1 0 0\n", "3 0 1 2\n")), "--repair"}).status == 1);
+}
+
+BOOST_AUTO_TEST_CASE(repair_of_what_is_no_manifold)
+{
+  const Folder folder;
+  // three squares at one edge: three pieces
+  const std::string book = folder.write("book.off", off("0 0 0\n0 1 0\n1 0 0\n1 1 0\n-1 0 0\n-1 1 0\n0 0 1\n0 1 1\n",
+                                                        "4 0 2 3 1\n4 0 1 5 4\n4 0 1 7 6\n"));
+  check_refused({book}, 1, "the edge 0-1 lies in 3 faces (0, 1, ...) (--repair");
+  const Obj pages = flattened(folder, book, {"--repair"});
+  BOOST_TEST((pages.faces == std::vector<Obj::Indices>{ {0, 2, 3, 1}, {0, 1, 5, 4}, {0, 1, 7, 6} }));
+  BOOST_TEST(pages.places.size() == 12u);
+  BOOST_TEST(largest_difference_of_distances(pages) < 1e-11);
+
+  // two triangles at one vertex
+  const std::string bow = folder.write("bow.off", off("0 0 0\n1 0 0\n1 1 0\n-1 0 0\n-1 -1 0\n", "3 0 1 2\n3 0 3 4\n"));
+  check_refused({bow}, 1, "more than one fan (--repair");
+  BOOST_TEST(flattened(folder, bow, {"--repair"}).places.size() == 6u);
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST((repairs(folder, book) == Counts{ {"non_manifold_edges", 1}, {"copied_vertices", 4} }));
+  BOOST_TEST((repairs(folder, bow) == Counts{ {"copied_vertices", 1} }));
+#endif
+  check_refused({bow, "--repair", "--boundary", "scale=" + folder.write("u.txt", "0 .1\n")}, 1, "u.txt: line 1: vertex 0 is several vertices");
+  BOOST_TEST(run({bow, "--repair", "--quiet", "--boundary", "scale=" + folder.write("u.txt", "1 .1\n")}).status == 0);
+
+  // of the faces of one piece the fewer are turned, be it the first
+  std::string grid = as_off(bumpy_grid(3));
+  grid.replace(grid.find("3 0 1 5\n"), 8, "3 0 5 1\n");
+  const std::string turned = folder.write("turned.off", grid);
+  check_refused({turned}, 1, "opposite orientations");
+  BOOST_TEST((flattened(folder, turned, {"--repair"}).faces[0] == Obj::Indices{1, 5, 0}));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST((repairs(folder, turned) == Counts{ {"turned_faces", 1} }));
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_oriented)
+{
+  const Folder folder;
+  // a strip of n squares, the last of which meets the first upside down
+  const auto strip = [&](int n, bool is_twisted)
+  {
+    std::ostringstream points, faces;
+    for(int i = 0; i < n; ++i)
+    {
+      const double turn = 2 * CGAL_PI * i / n, half = is_twisted ? turn / 2 : 0;
+      for(int side : {-1, 1})
+        points << (3 + side * std::cos(half)) * std::cos(turn) << ' ' << (3 + side * std::cos(half)) * std::sin(turn) << ' '
+               << side * std::sin(half) << '\n';
+      const int j = (i + 1) % n, swap = is_twisted && j == 0 ? 1 : 0;
+      faces << "4 " << 2 * i << ' ' << 2 * i + 1 << ' ' << 2 * j + 1 - swap << ' ' << 2 * j + swap << '\n';
+    }
+    return folder.write("strip.off", off(points.str(), faces.str()));
+  };
+  BOOST_TEST(run({strip(12, false), "--quiet"}).status == 0);
+  for(const std::vector<std::string>& options : std::vector<std::vector<std::string> >{ {}, {"--repair"} })
+    check_refused(with({strip(12, true), "-o", folder / "o.obj"}, options), 1, "the surface cannot be oriented");
+}
+
+// ------------------------------------------------------------------------------------------------
 // What is written: all or nothing
 // ------------------------------------------------------------------------------------------------
 
@@ -581,9 +925,8 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written)
   check_refused({input, "-o", input}, 2, "would overwrite the input");
   const std::string cones = folder.write("o.mtl", "12 free\n");
   check_refused({input, "--cones", cones, "--svg", cones}, 2, "would overwrite the input");
-  check_refused({input, "--cones", cones, "-o", folder / "o.obj"}, 2, "o.mtl would overwrite the input");
   fs::remove(cones);
-  check_refused({input, "-o", folder / "o.x", "--svg", folder / "o.x"}, 2, "two outputs have the same name");
+  check_refused({input, "-o", folder / "o.obj", "--svg", folder / "o.obj"}, 2, "two outputs have the same name");
   if(fs::exists("/dev/full"))
     check_refused({input, "-o", folder / "o.obj", "--svg", "/dev/full"}, 1, "cannot write /dev/full");
   BOOST_TEST((folder.files() == std::set<std::string>{"grid.off"}));
@@ -596,6 +939,114 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written)
   BOOST_TEST(fs::is_symlink(folder.path / "link.svg"));
   BOOST_TEST(contains(content(folder / "target.svg"), "</svg>"));
 }
+
+BOOST_AUTO_TEST_CASE(names_of_outputs)
+{
+  const Folder folder;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
+  for(const char* name : {"o.ply", "o.x", "o.obj.bak", "o.off"})
+    check_refused({input, "-o", folder / name}, 2, "-o writes OBJ files, named *.obj");
+  BOOST_TEST(folder.files().size() == 1u);
+  BOOST_TEST(run({input, "-o", folder / "o.OBJ", "--quiet"}).status == 0);
+  BOOST_TEST(run({input, "-o", "/dev/null", "--quiet"}).status == 0);
+
+  // what scripts ask for: only if nothing else is said
+  BOOST_TEST(run({"--default-input", input, "--default-output", folder / "new/out", "--quiet"}).status == 0);
+  BOOST_TEST(fs::exists(folder.path / "new/out/grid.obj"));
+  BOOST_TEST(fs::exists(folder.path / "new/out/grid.svg"));
+  fs::remove_all(folder.path / "new");
+  BOOST_TEST(run({input, "--default-input", "none.off", "--default-output", folder / "new", "--svg", folder / "o.svg", "--quiet"}).status == 0);
+  BOOST_TEST(! fs::exists(folder.path / "new"));
+}
+
+BOOST_AUTO_TEST_CASE(standard_streams)
+{
+  const Folder folder;
+  const Soup soup = bumpy_grid(4);
+  const std::string input = folder.write("grid.off", as_off(soup));
+  BOOST_TEST(run({input, "-o", folder / "o.obj"}).status == 0);
+
+  // one output there, and then nothing else
+  const Run r = run({input, "-o", "-"});
+  BOOST_TEST(r.status == 0);
+  BOOST_TEST((Obj(folder.write("p.obj", r.out)).places == Obj(folder / "o.obj").places));
+  BOOST_TEST(r.out.substr(0, 2) == "v ");
+  BOOST_TEST(contains(r.err, "25 vertices, 32 triangles"));
+  BOOST_TEST(contains(run({input, "--svg", "-", "--quiet"}).out, "</svg>"));
+  check_refused({input, "-o", "-", "--svg", "-"}, 2, "only one output");
+  check_refused({"-", "--boundary", "scale=-"}, 2, "only once");
+
+  // every format is recognized
+  for(const std::string& file : {as_off(soup), as_obj(soup), as_text_ply(soup), as_binary_ply(soup, true), as_text_stl(soup)})
+  {
+    std::istringstream in(file);
+    std::streambuf* const before = std::cin.rdbuf(in.rdbuf());
+    const Run read = run({"-"});
+    std::cin.rdbuf(before);
+    BOOST_TEST_CONTEXT(read.err)
+    BOOST_TEST(contains(read.out, "25 vertices, 32 triangles"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(materials_of_others_are_kept)
+{
+  const Folder folder;
+  const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
+  const std::string foreign = "newmtl wood\nKd 1 0 0\n";
+  folder.write("o.mtl", foreign);
+  for(int repetition = 0; repetition < 2; ++repetition) // our own is overwritten
+  {
+    const Run r = run({input, "-o", folder / "o.obj"});
+    BOOST_TEST(r.status == 0);
+    BOOST_TEST(contains(r.err, "o.mtl was not written by this program, and is kept"));
+    BOOST_TEST(content(folder / "o.mtl") == foreign);
+    BOOST_TEST(content(folder / "o.obj").substr(0, 20) == "mtllib o.layout.mtl\n");
+    BOOST_TEST(contains(content(folder / "o.layout.mtl"), "map_Kd"));
+  }
+  folder.write("o.layout.mtl", foreign);
+  check_refused({input, "-o", folder / "o.obj"}, 1, "neither is overwritten");
+  fs::remove(folder.path / "o.mtl");
+  for(int repetition = 0; repetition < 2; ++repetition)
+    BOOST_TEST(run({input, "-o", folder / "o.obj"}).err.empty());
+  BOOST_TEST(content(folder / "o.layout.mtl") == foreign);
+}
+
+#if defined(__unix__) || defined(__APPLE__)
+// Ended by a signal, a program leaves nothing of the files that it was writing; one that is ignored does not end it.
+BOOST_AUTO_TEST_CASE(interrupted_while_writing)
+{
+  for(int signal : {SIGINT, SIGTERM, SIGHUP})
+    for(bool is_ignored : {false, true})
+    {
+      const Folder folder;
+      const std::string old = folder.write("old.obj", "old");
+      const pid_t child = fork();
+      if(child == 0)
+      {
+        std::signal(signal, is_ignored ? SIG_IGN : SIG_DFL);
+        std::ostringstream none;
+        {
+          flattening::Output_files files(none);
+          for(const char* name : {"a.obj", "old.obj"})
+          {
+            files.announce(folder / name);
+            files.write(folder / name, [](std::ostream& out) { return (out << "new").good(); });
+          }
+          if(folder.files().size() != 3)
+            _exit(2);
+          std::raise(signal);
+        }
+        _exit(0);
+      }
+      int status = 0;
+      BOOST_REQUIRE(waitpid(child, &status, 0) == child);
+      BOOST_TEST(WIFSIGNALED(status) == ! is_ignored);
+      BOOST_TEST((is_ignored ? WEXITSTATUS(status) == 0 : WTERMSIG(status) == signal));
+      BOOST_TEST((folder.files() == std::set<std::string>{"old.obj"}));
+      BOOST_TEST(content(old) == "old");
+    }
+}
+#endif
 
 // ------------------------------------------------------------------------------------------------
 // The writers
@@ -613,9 +1064,9 @@ struct Two_triangles
   {
     flattening::Polygon_soup soup;
     soup.points = {{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}}, {{0.1, 1e-300, -1e300}}};
-    soup.faces = {{0, 1, 2}, {0, 2, 3}};
+    soup.faces = { flattening::Polygon{0, 1, 2}, flattening::Polygon{0, 2, 3} };
     flattening::check_soup(soup, "two");
-    flattening::build_mesh(soup, "two", mesh);
+    flattening::build_mesh(soup, mesh);
     uv = mesh.add_property_map<flattening::Halfedge, flattening::Kernel::Point_2>("h:uv").first;
     for(flattening::Halfedge h : mesh.halfedges())
     {

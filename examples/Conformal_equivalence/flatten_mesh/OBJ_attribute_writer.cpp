@@ -35,10 +35,28 @@ std::string path_seen_from(const fs::path& folder, const fs::path& path)
   return error || result.empty() ? fs::absolute(path, error).generic_string() : result.generic_string();
 }
 
+// The names that follow `mtllib` in the file `input`, as they are seen from the file `output`.
+std::string libraries_seen_from(const std::string& output, const std::string& input, const std::string& names)
+{
+  std::error_code error;
+  const fs::path from = fs::path(input).parent_path(), to = fs::absolute(output, error).parent_path();
+  if(fs::equivalent(fs::absolute(from / ".", error), to, error))
+    return names;
+  if(fs::exists(from / names, error)) // a name may have spaces
+    return path_seen_from(to, from / names);
+  std::string result;
+  std::istringstream words(names);
+  for(std::string name; words >> name; )
+    result += (result.empty() ? "" : " ") + path_seen_from(to, from / name);
+  return result;
+}
+
 } // namespace
 
 void OBJ_attribute_writer::write_libraries(Text_buffer& out) const
 {
+  if(! material_.file.empty())
+    out << "mtllib " << material_.file << '\n';
   for(const std::string& names : attributes_.libraries)
     out << "mtllib " << names << '\n';
 }
@@ -77,10 +95,10 @@ void OBJ_attribute_writer::write_before_face(Text_buffer& out, std::size_t face)
   }
 }
 
-void OBJ_attribute_writer::write_after_corner(Text_buffer& out, std::size_t face, std::size_t corner, bool has_texture) const
+void OBJ_attribute_writer::write_after_corner(Text_buffer& out, std::size_t face, std::size_t corner) const
 {
   if(keeps_normals_ && ! attributes_.face_normals[face].empty())
-    out << (has_texture ? "/" : "//") << attributes_.face_normals[face][corner] + 1;
+    out << '/' << attributes_.face_normals[face][corner] + 1;
 }
 
 bool all_faces_have_a_material(const OBJ_attributes& attributes)
@@ -88,19 +106,14 @@ bool all_faces_have_a_material(const OBJ_attributes& attributes)
   return ! attributes.sections.empty() && attributes.first_faces.front() == 0 && attributes.sections.front()[OBJ_attributes::MATERIAL];
 }
 
-std::string libraries_seen_from(const std::string& output, const std::string& input, const std::string& names)
+OBJ_attributes seen_from(const std::string& output, const std::string& input, OBJ_attributes attributes)
 {
-  std::error_code error;
-  const fs::path from = fs::path(input).parent_path(), to = fs::absolute(output, error).parent_path();
-  if(fs::equivalent(fs::absolute(from / ".", error), to, error))
-    return names;
-  if(fs::exists(from / names, error)) // a name may have spaces
-    return path_seen_from(to, from / names);
-  std::string result;
-  std::istringstream words(names);
-  for(std::string name; words >> name; )
-    result += (result.empty() ? "" : " ") + path_seen_from(to, from / name);
-  return result;
+  std::error_code ignored;
+  const bool is_no_file = output == "-" || input == "-" || (fs::exists(output, ignored) && ! fs::is_regular_file(output, ignored));
+  for(std::string& names : attributes.libraries)
+    if(! is_no_file)
+      names = libraries_seen_from(output, input, names);
+  return attributes;
 }
 
 } // namespace flattening

@@ -3,6 +3,7 @@
 
 #include "../include/flatten_mesh/Polygon_soup.h"
 #include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/repair_soup.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,12 @@
 #include <vector>
 
 namespace flattening {
+
+void require_faces(const Polygon_soup& soup, const std::string& file)
+{
+  if(soup.faces.empty())
+    fail(file, ": there are no faces", soup.notices.empty() ? "" : text(" (", soup.notices.front(), ")"));
+}
 
 void check_points(const Polygon_soup& soup, const std::string& file)
 {
@@ -116,7 +123,8 @@ void refuse_duplicates(const Polygon_soup& soup, const std::vector<std::uint32_t
 // Says why two faces that pass an edge v-w in the same direction cannot stay as they are.
 [[noreturn]] void fail_to_orient(const Polygon_soup& soup, std::uint32_t f, std::uint32_t g, std::size_t v, std::size_t w, const std::string& file)
 {
-  static_cast<void>(soup);
+  if(const auto conflict = find_orientation_conflict(soup))
+    fail(file, ": ", text_of(*conflict));
   fail(file, ": the faces ", f, " and ", g, " have opposite orientations at the edge ", v, "-", w, " (--repair turns faces)");
 }
 
@@ -188,8 +196,7 @@ void check_vertices(const Vertex_stars& stars, const std::string& file)
 
 void check_soup(Polygon_soup& soup, const std::string& file)
 {
-  if(soup.faces.empty())
-    fail(file, ": there are no faces");
+  require_faces(soup, file);
   check_points(soup, file);
   check_faces(soup, file);
   const Vertex_stars stars(soup);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace flattening {
 
@@ -63,14 +64,34 @@ std::string lower_case_extension(const std::string& file)
   return extension;
 }
 
+// The extension that files with this content have, as their first word tells. That of OBJ and of binary STL is arbitrary.
+std::string extension_of_content(const std::string& content)
+{
+  Scanner in(content, "-", '#');
+  const std::string_view word = in.word();
+  if(word == "ply")
+    return ".ply";
+  if(word == "solid")
+    return ".stl";
+  if(word.size() >= 3 && word.substr(word.size() - 3) == "OFF")
+    return ".off";
+  return content.find('\0') == std::string::npos ? ".obj" : ".stl";
+}
+
 } // namespace
 
 Polygon_soup read_soup(const std::string& file)
 {
-  const std::string extension = lower_case_extension(file);
+  std::string extension = lower_case_extension(file), content;
+  if(file == "-")
+  {
+    content = read_file(file);
+    extension = extension_of_content(content);
+  }
   if(extension != ".off" && extension != ".obj" && extension != ".stl" && extension != ".ply")
     fail(file, ": unknown extension '", extension, "'; known are .off, .obj, .ply and .stl");
-  const std::string content = read_file(file);
+  if(file != "-")
+    content = read_file(file);
   if(content.empty())
     fail(file, ": the file is empty");
   if(extension == ".off")

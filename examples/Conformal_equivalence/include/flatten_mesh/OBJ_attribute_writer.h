@@ -14,24 +14,27 @@
 
 namespace flattening {
 
-// Writes what an OBJ file said of its faces into another one, between its vertices and faces. Faces and corners are those of the file read; they
-// may come in any order, and repeatedly.
+// Writes what an OBJ file said of its faces into another one. Faces and corners are those of the file read; they may come in any order, and
+// repeatedly.
 class OBJ_attribute_writer
 {
 public:
-  // Normals are written only if the corners of the faces written are those of the faces read. `material` is for faces that have none.
+  // Normals are written only if the corners of the faces written are those of the faces read. `material` is for faces that have none, or has
+  // no file.
   OBJ_attribute_writer(const OBJ_attributes& attributes, bool keeps_normals, const CGAL::Conformal_equivalence::IO::OBJ_material& material)
     : attributes_(attributes), keeps_normals_(keeps_normals && ! attributes.face_normals.empty()), material_(material)
   {}
 
+  // The lines that name files of materials.
   void write_libraries(Text_buffer& out) const;
+
   void write_normals(Text_buffer& out) const;
 
   // The lines that hold for this face, and did not for the one before.
   void write_before_face(Text_buffer& out, std::size_t face);
 
-  // What follows the vertex, or the vertex and its texture coordinates, of a corner.
-  void write_after_corner(Text_buffer& out, std::size_t face, std::size_t corner, bool has_texture) const;
+  // What follows the vertex of a corner, and its texture coordinates.
+  void write_after_corner(Text_buffer& out, std::size_t face, std::size_t corner) const;
 
 private:
   OBJ_attributes::Section section_of(std::size_t face) const;
@@ -45,8 +48,8 @@ private:
 // Whether each face has a material.
 bool all_faces_have_a_material(const OBJ_attributes& attributes);
 
-// The names of libraries that follow `mtllib` in the file `input`, as they are seen from the file `output`.
-std::string libraries_seen_from(const std::string& output, const std::string& input, const std::string& names);
+// The attributes, with the names of libraries in the file `input` as they are seen from the file `output`.
+OBJ_attributes seen_from(const std::string& output, const std::string& input, OBJ_attributes attributes);
 
 } // namespace flattening
 

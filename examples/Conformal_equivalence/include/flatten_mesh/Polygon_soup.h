@@ -32,6 +32,10 @@ struct Polygon_soup
   std::vector<std::string> notices;  // what of the file was skipped
 };
 
+// Throws a `Failure` if there is no face.
+void require_faces(const Polygon_soup& soup, const std::string& file);
+
+
 // Throws a `Failure` that says what is wrong unless all coordinates are finite.
 void check_points(const Polygon_soup& soup, const std::string& file);
 

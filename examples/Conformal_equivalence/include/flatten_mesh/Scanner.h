@@ -15,6 +15,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <istream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -22,18 +24,11 @@
 
 namespace flattening {
 
-// The whole content of a file.
-inline std::string read_file(const std::string& name)
+// All that is left in a stream, of about so many bytes.
+inline std::string read_stream(std::istream& in, const std::string& name, std::uintmax_t size = 0)
 {
-  std::error_code ignored;
-  if(std::filesystem::is_directory(name, ignored))
-    fail(name, ": is a directory");
-  std::ifstream in(name, std::ios::binary);
-  if(! in)
-    fail(name, ": cannot be opened: ", std::strerror(errno));
   std::string content;
-  const std::uintmax_t size = std::filesystem::file_size(name, ignored);
-  if(! ignored && size < std::uintmax_t(1) << 40)
+  if(size < std::uintmax_t(1) << 40)
     content.reserve(static_cast<std::size_t>(size) + 1);
   char block[1 << 16];
   while(in.read(block, sizeof block), in.gcount() > 0)
@@ -41,6 +36,21 @@ inline std::string read_file(const std::string& name)
   if(in.bad())
     fail(name, ": cannot be read");
   return content;
+}
+
+// The whole content of a file; of the standard input for the name "-".
+inline std::string read_file(const std::string& name)
+{
+  if(name == "-")
+    return read_stream(std::cin, name);
+  std::error_code ignored;
+  if(std::filesystem::is_directory(name, ignored))
+    fail(name, ": is a directory");
+  std::ifstream in(name, std::ios::binary);
+  if(! in)
+    fail(name, ": cannot be opened: ", std::strerror(errno));
+  const std::uintmax_t size = std::filesystem::file_size(name, ignored);
+  return read_stream(in, name, ignored ? 0 : size);
 }
 
 // Reads words and numbers from a text, and knows the line it is in. Errors are

@@ -29,11 +29,8 @@ typedef Mesh::Property_map<Halfedge, Kernel::Point_2>       UV_map;
 
 struct Polygon_soup;
 
-// Vertices and faces keep their order and number; so do vertices without a face.
-void build_mesh(const Polygon_soup& soup, const std::string& file, Mesh& mesh);
-
-// Returns what the file holds. Throws a `Failure` if that is no manifold.
-Polygon_soup read_mesh(const std::string& file, Mesh& mesh);
+// Vertices and faces keep their order and number; so do vertices without a face. The soup is an oriented manifold.
+void build_mesh(const Polygon_soup& soup, Mesh& mesh);
 
 bool is_on_border(const Mesh& mesh, Vertex v);
 

@@ -18,7 +18,7 @@ namespace flattening {
 // Whether the machine's numbers begin with their most significant byte.
 bool is_big_endian();
 
-// Reads the file in the format that its extension names. Throws a `Failure` that says what is wrong.
+// Reads the file in the format that its extension names; the standard input, "-", in that of its content. Throws a `Failure` that says what is wrong.
 Polygon_soup read_soup(const std::string& file);
 
 } // namespace flattening
