@@ -506,9 +506,9 @@ BOOST_AUTO_TEST_CASE(forms_of_stl)
     BOOST_TEST((read(other) == from_text));
   BOOST_TEST((read(bytes + "tail") == from_bytes));
   BOOST_TEST((read("SOLID" + bytes.substr(5) + "tail") == from_bytes));
-  const Run r = run({folder.write("a.stl", bytes + "tail")});
+  const Run r = run({folder.write("b.stl", bytes + "tail")});
   BOOST_TEST(r.status == 0);
-  BOOST_TEST(contains(r.err, "a.stl: skipped 4 bytes after the last triangle\n"));
+  BOOST_TEST(contains(r.err, "b.stl: skipped 4 bytes after the last triangle\n"));
 
   // two solids
   const std::size_t half = text.find("facet normal", text.size() / 2);
@@ -539,6 +539,149 @@ BOOST_AUTO_TEST_CASE(notices)
                            "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 1\n1 2\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
              == "skipped 2 elements 'edge'\n");
   BOOST_TEST(said("a.stl", "solid\ncolor 1 0 0\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid\n") == "skipped words: 'color' (1)\n");
+}
+
+namespace {
+
+// What an OBJ file says of a face: the last lines o, g, usemtl and s before it, and the normals of its corners.
+struct Said_of_face
+{
+  std::map<std::string, std::string> lines;
+  std::vector<std::string> normals;
+
+  bool operator==(const Said_of_face& other) const { return lines == other.lines && normals == other.normals; }
+};
+
+std::vector<Said_of_face> said_of_faces(const std::string& obj)
+{
+  std::vector<Said_of_face> result;
+  std::map<std::string, std::string> lines;
+  std::vector<std::string> normals;
+  std::istringstream in(obj);
+  for(std::string line; std::getline(in, line); )
+  {
+    const std::size_t space = (std::min)(line.find(' '), line.size());
+    const std::string key = line.substr(0, space), rest = space < line.size() ? line.substr(space + 1) : "";
+    if(key == "o" || key == "g" || key == "usemtl" || key == "s")
+      lines[key] = rest;
+    if(key == "vn")
+      normals.push_back(rest);
+    if(key != "f")
+      continue;
+    result.push_back({lines, {}});
+    std::istringstream corners(rest);
+    for(std::string corner; corners >> corner; )
+      if(std::count(corner.begin(), corner.end(), '/') == 2)
+        result.back().normals.push_back(normals.at(std::stoul(corner.substr(corner.rfind('/') + 1)) - 1));
+  }
+  return result;
+}
+
+std::string lines_with(const std::string& key, const std::string& obj)
+{
+  std::istringstream in(obj);
+  std::string result;
+  for(std::string line; std::getline(in, line); )
+    if(line.compare(0, key.size() + 1, key + ' ') == 0)
+      result += line.substr(key.size() + 1) + '\n';
+  return result;
+}
+
+// A grid in several groups, materials and smoothing groups; every third face has no normals.
+std::string as_obj_with_attributes(const Soup& soup, bool has_materials_at_once)
+{
+  std::ostringstream out;
+  out << "mtllib my colours.mtl\nmtllib a.mtl b.mtl\n";
+  for(std::size_t v = 0; v < soup.points.size(); ++v)
+    out << "v " << point(soup.points[v]) << "\nvn 0 " << v << " 1\n";
+  const std::map<std::size_t, std::string> lines = { {0, has_materials_at_once ? "usemtl green\n" : ""}, {1, "g one\n"}, {3, "o thing\ns 1\nusemtl red\n"},
+    {5, "g two \\\n  three\n"}, {6, "usemtl light blue\ns off\n"}, {7, "g\ng four\n"} };
+  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+  {
+    if(lines.count(f) != 0)
+      out << lines.at(f);
+    out << 'f';
+    for(std::uint32_t v : soup.triangles[f])
+      out << ' ' << v + 1 << (f % 3 == 2 ? "" : "//" + std::to_string(v + 1));
+    out << '\n';
+  }
+  return out.str();
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(what_obj_files_say_of_faces_is_kept)
+{
+  const Folder folder;
+  fs::create_directory(folder.path / "in");
+  fs::create_directory(folder.path / "out");
+  folder.write("in/my colours.mtl", "newmtl red\n");
+  const std::string obj = as_obj_with_attributes(bumpy_grid(2), false), input = folder.write("in/a.obj", obj);
+  std::vector<Said_of_face> expected = said_of_faces(replaced(obj, "\\\n ", ""));
+  for(Said_of_face& face : expected) // those without a material get one
+    face.lines.emplace("usemtl", "layout");
+  const Run r = run({input, "-o", folder / "out/o.obj"});
+  BOOST_TEST(r.err == "");
+  const std::string written = content(folder / "out/o.obj");
+  BOOST_TEST((said_of_faces(written) == expected));
+  BOOST_TEST(lines_with("g", written) == "one\ntwo three\nfour\n");
+  BOOST_TEST(lines_with("mtllib", written) == "o.mtl\n../in/my colours.mtl\n../in/a.mtl ../in/b.mtl\n");
+  BOOST_TEST(run({folder / "out/o.obj", "-o", folder / "out/p.obj"}).status == 0);
+  BOOST_TEST((said_of_faces(content(folder / "out/p.obj")) == expected));
+
+  // Where all faces have a material, there is no need for another one.
+  const std::string coloured = as_obj_with_attributes(bumpy_grid(2), true);
+  BOOST_TEST(run({folder.write("in/b.obj", coloured), "-o", folder / "in/q.obj"}).status == 0);
+  const std::string as_coloured = content(folder / "in/q.obj");
+  BOOST_TEST((said_of_faces(as_coloured) == said_of_faces(replaced(coloured, "\\\n ", ""))));
+  BOOST_TEST(lines_with("mtllib", as_coloured) == "my colours.mtl\na.mtl b.mtl\n");
+  BOOST_TEST(! fs::exists(folder / "in/q.mtl"));
+  BOOST_TEST(! fs::exists(folder / "in/q.checker.png"));
+}
+
+// Of polygons; of the parts of a refinement, each of which lies in a face of the file; on the sphere.
+BOOST_AUTO_TEST_CASE(what_is_said_of_faces_is_kept_in_other_meshes)
+{
+  const Folder folder;
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 .1\nv 0 1 0\nv 2 0 0\nvn 0 0 1\nvn 0 1 1\ng a\nf 1//1 2//2 3//1 4//2\ng b\nf 2//1 5//1 3//2\n";
+  BOOST_TEST(run({folder.write("square.obj", square), "-o", folder / "o.obj", "--quiet"}).status == 0);
+  std::vector<Said_of_face> expected = said_of_faces(square);
+  for(Said_of_face& face : expected)
+    face.lines.emplace("usemtl", "layout");
+  BOOST_TEST((said_of_faces(content(folder / "o.obj")) == expected));
+
+  const Soup grid = bumpy_grid(4);
+  const std::string obj = as_obj_with_attributes(grid, true);
+  const std::vector<Said_of_face> said = said_of_faces(replaced(obj, "\\\n ", ""));
+  const Run r = run({folder.write("grid.obj", obj), "-o", folder / "r.obj", "--retriangulate", "always", "--refine"});
+  BOOST_TEST(r.status == 0);
+  BOOST_TEST(contains(r.err, "its normals are not written"));
+  const std::vector<Said_of_face> of_parts = said_of_faces(content(folder / "r.obj"));
+  const checking::Surface parts = checking::read_surface(folder / "r.obj");
+  BOOST_REQUIRE(of_parts.size() == parts.faces.size());
+  BOOST_TEST(of_parts.size() > said.size()); // edges were flipped
+  for(std::size_t f = 0; f < of_parts.size(); ++f)
+  {
+    double x = 0, y = 0; // the surface is a height field: of squares divided by the diagonal x = y
+    for(std::size_t v : parts.faces[f])
+    {
+      x += 4 * parts.points[v][0] / 3;
+      y += 4 * parts.points[v][1] / 3;
+    }
+    const std::size_t i = std::size_t(x), j = std::size_t(y), given = 2 * (4 * j + i) + (y - double(j) > x - double(i));
+    BOOST_TEST((of_parts[f].lines == said[given].lines));
+  }
+
+  std::string closed = "s 1\n";
+  for(std::size_t f = 0; f < 8; ++f) // an octahedron
+  {
+    const std::size_t x = 1 + f % 2, y = 3 + f / 2 % 2, z = 5 + f / 4;
+    const bool is_even = (f % 2 + f / 2 % 2 + f / 4) % 2 == 0;
+    closed += "g " + std::to_string(f) + "\nf " + std::to_string(x) + ' ' + std::to_string(is_even ? y : z) + ' ' + std::to_string(is_even ? z : y) + '\n';
+  }
+  closed = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n" + closed;
+  BOOST_TEST(run({folder.write("closed.obj", closed), "--target", "sphere", "-o", folder / "s.obj"}).status == 0);
+  BOOST_TEST((said_of_faces(content(folder / "s.obj")) == said_of_faces(closed)));
 }
 
 // Around a vertex of many faces, too, time is linear: in 100 000 triangles quadratic time would be more than ten seconds.
