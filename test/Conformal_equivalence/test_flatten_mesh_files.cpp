@@ -275,7 +275,8 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.off", off(square, "3 0 1 2\n0\n"), "line 8: face 1 has no vertices"},
     {"a.off", off(square, two) + "3 0 1 2\n", "line 9: there is more than the 4 vertices and 2 faces that are announced"},
     {"a.off", "OFF\n4 2 0\n" + square + "0 0 1\n" + two, "line 7: face 0 has no vertices"}, // another vertex than announced
-    {"a.off", off("0 0 0 1 0 0\n1 1 0\n0 1 0\n0 0 1\n", two) + "x\n", "line 9: there is more than"},
+    {"a.off", "OFF\n5 1 0\n" + square + two, "line 7: vertex 4 has 1 numbers after its coordinates, but vertex 0 has 0"}, // a face
+    {"a.off", off("0 0 0 1 0 0\n1 1 0\n0 1 0\n0 0 1\n", two), "line 4: vertex 1 has 0 numbers after its coordinates, but vertex 0 has 3"},
     {"a.off", off("0 0 0 red\n1 0 0\n0 1 0\n", "3 0 1 2\n"), "line 3: expected a number, found 'red'"},
     {"a.off", off("0 0 0\n1 0 0\n0 1 1.#INF\n", "3 0 1 2\n"), "line 5: expected a number, found '1.#INF'"},
     {"a.off", "\xFF\xFEO\0F\0F\0", "is encoded in UTF-16 or UTF-32; convert it to UTF-8"},

@@ -29,15 +29,19 @@ bool read_off_key_word(Scanner& in)
   return key.find('4') != std::string_view::npos;
 }
 
-// Normals, colors and texture coordinates are skipped, but nothing that is no number.
-void skip_numbers(Scanner& in)
+// Normals, colors and texture coordinates are skipped, but nothing that is no number. Returns how many they are.
+std::size_t skip_numbers(Scanner& in)
 {
-  while(! in.at_end_of_line())
+  std::size_t n = 0;
+  for(; ! in.at_end_of_line(); ++n)
     in.number_in_line();
+  return n;
 }
 
+// All vertices have as many numbers: a face is not taken for one.
 void read_off_vertices(Scanner& in, bool is_homogeneous, Polygon_soup& soup)
 {
+  std::size_t number_of_others = 0;
   for(std::size_t v = 0; v < soup.points.size(); ++v)
   {
     if(in.at_end())
@@ -50,7 +54,11 @@ void read_off_vertices(Scanner& in, bool is_homogeneous, Polygon_soup& soup)
       for(double& x : soup.points[v])
         x /= w;
     }
-    skip_numbers(in);
+    const std::size_t n = skip_numbers(in);
+    if(v == 0)
+      number_of_others = n;
+    else if(n != number_of_others)
+      in.error("vertex ", v, " has ", n, " numbers after its coordinates, but vertex 0 has ", number_of_others);
   }
 }
 
