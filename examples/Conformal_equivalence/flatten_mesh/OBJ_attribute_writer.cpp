@@ -38,6 +38,8 @@ std::string path_seen_from(const fs::path& folder, const fs::path& path)
 // The names that follow `mtllib` in the file `input`, as they are seen from the file `output`.
 std::string libraries_seen_from(const std::string& output, const std::string& input, const std::string& names)
 {
+  if(names.empty())
+    return names;
   std::error_code error;
   const fs::path from = fs::path(input).parent_path(), to = fs::absolute(output, error).parent_path();
   if(fs::equivalent(fs::absolute(from / ".", error), to, error))
@@ -68,29 +70,32 @@ void OBJ_attribute_writer::write_normals(Text_buffer& out) const
       out << "vn " << n[0] << ' ' << n[1] << ' ' << n[2] << '\n';
 }
 
-OBJ_attributes::Section OBJ_attribute_writer::section_of(std::size_t face) const
+OBJ_attributes::Section OBJ_attribute_writer::section(std::size_t number) const
 {
-  const auto& first = attributes_.first_faces;
-  const std::ptrdiff_t n = std::upper_bound(first.begin(), first.end(), face) - first.begin();
-  OBJ_attributes::Section section;
-  if(n > 0)
-    section = attributes_.sections[static_cast<std::size_t>(n - 1)];
-  if(! section[OBJ_attributes::MATERIAL] && ! material_.file.empty())
-    section[OBJ_attributes::MATERIAL] = material_.name;
-  return section;
+  OBJ_attributes::Section result;
+  if(number > 0)
+    result = attributes_.sections[number - 1];
+  if(! result[OBJ_attributes::MATERIAL] && ! material_.file.empty())
+    result[OBJ_attributes::MATERIAL] = material_.name;
+  return result;
 }
 
 void OBJ_attribute_writer::write_before_face(Text_buffer& out, std::size_t face)
 {
-  OBJ_attributes::Section section = section_of(face);
-  for(std::size_t k = 0; k < section.size(); ++k)
+  const auto& first = attributes_.first_faces;
+  const std::size_t number = static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), face) - first.begin());
+  if(number == last_number_)
+    return;
+  last_number_ = number;
+  OBJ_attributes::Section lines = section(number);
+  for(std::size_t k = 0; k < lines.size(); ++k)
   {
-    if(! section[k] && last_[k])
-      section[k] = absent_value(k);
-    if(section[k] && section[k] != last_[k])
+    if(! lines[k] && last_[k])
+      lines[k] = absent_value(k);
+    if(lines[k] && lines[k] != last_[k])
     {
-      out << OBJ_attributes::key_words[k] << (section[k]->empty() ? "" : " ") << *section[k] << '\n';
-      last_[k] = section[k];
+      out << OBJ_attributes::key_words[k] << (lines[k]->empty() ? "" : " ") << *lines[k] << '\n';
+      last_[k] = lines[k];
     }
   }
 }

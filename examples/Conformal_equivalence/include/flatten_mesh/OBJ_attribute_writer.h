@@ -37,12 +37,14 @@ public:
   void write_after_corner(Text_buffer& out, std::size_t face, std::size_t corner) const;
 
 private:
-  OBJ_attributes::Section section_of(std::size_t face) const;
+  // Sections are counted from 1; the faces before the first one are in section 0.
+  OBJ_attributes::Section section(std::size_t number) const;
 
   const OBJ_attributes& attributes_;
   bool keeps_normals_;
   CGAL::Conformal_equivalence::IO::OBJ_material material_;
-  OBJ_attributes::Section last_; // what holds after the lines written so far
+  std::size_t last_number_ = std::size_t(-1); // of the section of the last face
+  OBJ_attributes::Section last_;              // what holds after the lines written so far
 };
 
 // Whether each face has a material.
