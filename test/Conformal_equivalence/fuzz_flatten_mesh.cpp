@@ -20,7 +20,6 @@
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/flatten_mesh.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/messages.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/read_soup.h"
-#include "../../examples/Conformal_equivalence/include/flatten_mesh/Triangle_soup.h"
 
 #include <CGAL/assertions_behaviour.h>
 
@@ -65,7 +64,7 @@ constexpr std::size_t maximum_size = 8192; // some hundred faces: most runs take
 constexpr int maximum_number_of_iterations = 20; // with coordinates beyond 1e100, each may take a tenth of a second
 constexpr char separator = '\x1e';
 
-enum Choice { FORMAT, BOUNDARY, CONES, RETRIANGULATION, FLAGS, OUTPUTS, ITERATIONS, NUMBER_OF_CHOICES };
+enum Choice { FORMAT, BOUNDARY, CONES, WAY, RETRIANGULATION, FLAGS, OUTPUTS, ITERATIONS, NUMBER_OF_CHOICES };
 enum Boundary { NOT_GIVEN, NATURAL, RECTANGLE, CORNERS, ANGLES, SCALE, ANGLES_AND_SCALE, CONTRADICTION, NUMBER_OF_BOUNDARIES };
 enum Flag { PROJECTIVE = 1, REQUIRE_INJECTIVE = 2, QUIET = 4, UNIT_SQUARE = 8, QUASI_CONFORMAL = 16,
             TOLERANCE = 32, SIMPLICIAL = 64, REFINE = 128 };
@@ -216,19 +215,79 @@ inline std::vector<std::string> cone_arguments(const Input& input, const Folder&
   return result;
 }
 
+// Where to, and what is done to the surface before.
+enum Way { PLANE, SPHERE, SPHERE_OF_AREAS, SPHERE_BY_VERTEX, SPHERE_WITH_DIGITS, DISK, DISK_OF_AREAS, DISK_BY_VERTEX, DISK_AROUND_VERTEX,
+           DISK_OF_POINTS, DISK_WITH_DIGITS, DIGITS, KEPT_BORDER, LOCAL_REPAIR, MOLLIFICATION, REPAIR, REPAIR_TO_SPHERE, REPAIR_TO_DISK, NUMBER_OF_WAYS };
+
+inline Way way(const Input& input) { return Way(input.choices[WAY] % NUMBER_OF_WAYS); }
+
+inline bool is_sphere(const Input& input)
+{
+  return (way(input) >= SPHERE && way(input) <= SPHERE_WITH_DIGITS) || way(input) == REPAIR_TO_SPHERE;
+}
+
+inline bool is_disk(const Input& input)
+{
+  return (way(input) >= DISK && way(input) <= DISK_WITH_DIGITS) || way(input) == REPAIR_TO_DISK;
+}
+
+inline bool is_repaired(const Input& input) { return way(input) >= REPAIR && way(input) <= REPAIR_TO_DISK; }
+
+inline std::vector<std::string> way_arguments(const Input& input)
+{
+  const std::string vertex = std::to_string(input.choices[WAY] / NUMBER_OF_WAYS);
+  const std::vector<std::vector<std::string> > of_ways = {
+    {}, { "--target=sphere" }, { "--target=sphere", "--moebius-weights=areas" }, { "--target=sphere", "--vertex-at-infinity=" + vertex },
+    { "--target=sphere", "--precision=100" }, { "--target=disk" }, { "--boundary=disk", "--moebius-weights=areas" },
+    { "--target=disk", "--vertex-at-infinity=" + vertex }, { "--target=disk", "--disk-centre=" + vertex },
+    { "--target=disk", "--disk-points=" + argument(input.texts[CORNER_LIST]) }, { "--target=disk", "--precision=100" },
+    { "--precision=80" }, { "--keep-border" }, { "--local-repair" }, { "--mollify=1e-3" },
+    { "--repair" }, { "--repair", "--target=sphere" }, { "--repair", "--target=disk" } };
+  return of_ways[way(input)];
+}
+
 struct Output_file { Output output; const char* option; const char* name; };
 
 constexpr Output_file output_files[] = { {OBJ, "--output=", "out.obj"}, {SVG, "--svg=", "out.svg"},
                                          {HTML, "--html=", "out.html"}, {REPORT, "--report=", "out.json"} };
 
+// Whether the option says something together with the others: if not, that is wrong usage.
+inline bool is_usable(const Input& input, Flag flag)
+{
+  const bool is_plane = ! is_sphere(input) && ! is_disk(input);
+  switch(flag)
+  {
+    case PROJECTIVE:  return ! is_seamless(input) && ! is_sphere(input);
+    case UNIT_SQUARE: return ! is_seamless(input) && is_plane;
+    case REFINE:      return ! is_seamless(input);
+    default:          return true;
+  }
+}
+
+inline bool is_usable(const Input& input, Output output) { return output != HTML || ! is_sphere(input); }
+
+// Conditions in the plane. Without flips on the way, and with more digits, no cones are placed.
+inline std::vector<std::string> condition_arguments(const Input& input, const Folder& folder)
+{
+  if(is_sphere(input) || is_disk(input))
+    return {};
+  std::vector<std::string> a = boundary_arguments(input, folder);
+  if((way(input) == LOCAL_REPAIR || way(input) == DIGITS) && cones(input) != FILE_OF_CONES)
+    return a;
+  const std::vector<std::string> of_cones = cone_arguments(input, folder);
+  a.insert(a.end(), of_cones.begin(), of_cones.end());
+  return a;
+}
+
 // Options end with "=value", so that no value is taken for another option.
 inline std::vector<std::string> arguments(const Input& input, const Folder& folder)
 {
-  std::vector<std::string> a = boundary_arguments(input, folder);
-  for(const std::string& cone_argument : cone_arguments(input, folder))
-    a.push_back(cone_argument);
+  std::vector<std::string> a = condition_arguments(input, folder);
+  for(const std::string& way_argument : way_arguments(input))
+    a.push_back(way_argument);
   const char* retriangulations[] = { "never", "when-needed", "always" };
-  a.push_back(std::string("--retriangulate=") + retriangulations[input.choices[RETRIANGULATION] % 3]);
+  if(way(input) != LOCAL_REPAIR)
+    a.push_back(std::string("--retriangulate=") + retriangulations[input.choices[RETRIANGULATION] % 3]);
   a.push_back("--max-iterations=" + std::to_string(input.choices[ITERATIONS] % (maximum_number_of_iterations + 1)));
   const std::pair<Flag, std::string> flags[] = {
     {PROJECTIVE, "--projective"}, {REQUIRE_INJECTIVE, "--require-injective"}, {QUIET, "--quiet"},
@@ -236,10 +295,10 @@ inline std::vector<std::string> arguments(const Input& input, const Folder& fold
     {TOLERANCE, "--tolerance=" + argument(input.texts[TOLERANCE_TEXT])}, {SIMPLICIAL, "--solver=simplicial"},
     {REFINE, "--refine"} };
   for(const auto& flag : flags)
-    if(input.has(flag.first) && ! (is_seamless(input) && (flag.first & (PROJECTIVE | UNIT_SQUARE | REFINE)) != 0)) // usage errors
+    if(input.has(flag.first) && is_usable(input, flag.first))
       a.push_back(flag.second);
   for(const Output_file& file : output_files)
-    if(input.has(file.output))
+    if(input.has(file.output) && is_usable(input, file.output))
       a.push_back(file.option + (folder / (input.has(NO_SUCH_FOLDER) ? std::string("none/") + file.name : file.name)));
   a.push_back(folder / mesh_name(input));
   return a;
@@ -288,43 +347,88 @@ inline bool is_one_line(const std::string& text)
   return text.size() > 1 && text.find('\n') == text.size() - 1;
 }
 
-// Empty if the layout in the OBJ file is finite and, as far as the file has it exactly, flips nothing.
-inline std::string fault_of_layout(const std::string& obj)
+// Whether each face of the OBJ file has three corners.
+inline std::vector<bool> are_triangles(const std::string& obj)
 {
+  std::vector<bool> result;
   std::istringstream in(obj);
-  const checking::Surface s = checking::read_obj(in);
-  if(s.faces.empty())
-    return "the output has no faces";
-  for(const auto& p : s.texture)
-    for(double x : p)
-      if(! std::isfinite(x))
-        return "a texture coordinate is not a finite number";
+  for(std::string line; std::getline(in, line); )
+    if(line.compare(0, 2, "f ") == 0)
+      result.push_back(checking::count_words(line) == 4);
+  return result;
+}
+
+// Empty if all triangles with exact coordinates are turned to the left, or flat.
+inline std::string fault_of_triangles(const checking::Surface& s, const std::string& obj)
+{
   typedef CGAL::Exact_predicates_inexact_constructions_kernel::Point_2 Point;
+  const std::vector<bool> is_triangle = are_triangles(obj);
   for(std::size_t f = 0; f < s.faces.size() && ! s.has_weights; ++f)
   {
     Point p[3];
     for(std::size_t k = 0; k < 3; ++k)
       p[k] = Point(s.texture.at(s.corners[f][k])[0], s.texture.at(s.corners[f][k])[1]);
-    if(CGAL::orientation(p[0], p[1], p[2]) == CGAL::NEGATIVE)
+    if(is_triangle[f] && CGAL::orientation(p[0], p[1], p[2]) == CGAL::NEGATIVE)
       return "face " + std::to_string(f) + " of the layout is flipped";
   }
   return "";
 }
 
+// Empty if the points of the OBJ file are on the unit sphere; vertices without a face are in its centre.
+inline std::string fault_of_sphere(const checking::Surface& s)
+{
+  for(const auto& p : s.points)
+  {
+    const double r = std::hypot(p[0], p[1], p[2]);
+    if(! (r == 0 || std::abs(r - 1) < 1e-14))
+      return "a point is off the sphere";
+  }
+  return "";
+}
+
+// Empty if the layout in the OBJ file is finite and, as far as the file has it exactly, flips nothing but what is said. Faces that were
+// repaired lie as those do that stand for them.
+inline std::string fault_of_layout(const Input& input, const std::string& obj, const std::string& message)
+{
+  std::istringstream in(obj);
+  const checking::Surface s = checking::read_obj(in);
+  if(s.faces.empty())
+    return "the output has no faces";
+  if(is_sphere(input))
+    return fault_of_sphere(s);
+  for(const auto& p : s.texture)
+    for(double x : p)
+      if(! std::isfinite(x))
+        return "a texture coordinate is not a finite number";
+  const bool may_be_flipped = is_repaired(input) || (is_disk(input) && (input.has(QUIET) || message.find("not positive") != std::string::npos));
+  return may_be_flipped ? "" : fault_of_triangles(s, obj);
+}
+
+// Notices, one a line.
+inline bool are_notices(const std::string& message)
+{
+  std::istringstream in(message);
+  for(std::string line; std::getline(in, line); )
+    if(line.compare(0, 14, "flatten_mesh: ") != 0)
+      return false;
+  return true;
+}
+
 inline std::string fault_of_success(const Input& input, const Folder& folder, const Run& r)
 {
-  if(! r.err.empty())
+  if(input.has(QUIET) ? ! r.err.empty() : ! are_notices(r.err))
     return "status 0, but there is a message: " + r.err;
   if(r.out.empty() != input.has(QUIET))
     return "status 0, but the summary is missing, or not quiet";
   for(const Output_file& file : output_files)
   {
     const std::string content = folder.content(file.name);
-    const bool is_as_before = content == (input.has(THERE_BEFORE) ? content_before : "");
-    if(input.has(file.output) ? is_as_before || content.empty() : ! is_as_before)
-      return std::string("status 0, but ") + file.name + (input.has(file.output) ? " is not written" : " is touched");
+    const bool is_as_before = content == (input.has(THERE_BEFORE) ? content_before : ""),
+               is_written = input.has(file.output) && is_usable(input, file.output);
+    if(is_written ? is_as_before || content.empty() : ! is_as_before)
+      return std::string("status 0, but ") + file.name + (is_written ? " is not written" : " is touched");
   }
-  return input.has(OBJ) ? fault_of_layout(folder.content("out.obj")) : "";
+  return input.has(OBJ) ? fault_of_layout(input, folder.content("out.obj"), r.err) : "";
 }
 
 inline std::string fault_of_failure(const std::map<std::string, std::string>& before, const Folder& folder, const Run& r)
@@ -399,7 +503,11 @@ inline std::string fault(const Input& input, const Folder& folder, const Program
 // Valid inputs to begin with
 // ------------------------------------------------------------------------------------------------
 
-typedef flattening::Triangle_soup Soup;
+struct Soup
+{
+  std::vector<std::array<double, 3> > points;
+  std::vector<std::array<std::uint32_t, 3> > triangles;
+};
 typedef std::array<int, 3> Cube;
 
 inline Soup grid(std::uint32_t n, double height, double stretch)
@@ -591,14 +699,90 @@ inline Soup renumbered(const Soup& soup)
   return result;
 }
 
-enum File_format { TEXT_OFF, TEXT_OBJ, TEXT_PLY, BINARY_PLY, TEXT_STL, BINARY_STL, NUMBER_OF_FORMATS };
+// Triangles that follow each other and share a diagonal, as squares.
+inline std::vector<std::vector<std::uint32_t> > squares(const Soup& soup)
+{
+  std::vector<std::vector<std::uint32_t> > faces;
+  for(const auto& t : soup.triangles)
+    if(! faces.empty() && faces.back().size() == 3 && faces.back()[0] == t[0] && faces.back()[2] == t[1])
+      faces.back().push_back(t[2]);
+    else
+      faces.push_back({ t[0], t[1], t[2] });
+  return faces;
+}
+
+inline std::string as_polygons(const Soup& soup)
+{
+  const auto faces = squares(soup);
+  std::ostringstream out;
+  out.precision(17);
+  out << "OFF\n" << soup.points.size() << ' ' << faces.size() << " 0\n";
+  for(const auto& p : soup.points)
+    out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  for(const auto& face : faces)
+  {
+    out << face.size();
+    for(std::uint32_t v : face)
+      out << ' ' << v;
+    out << '\n';
+  }
+  return out.str();
+}
+
+// Groups, materials, smoothing, normals; a line that is skipped, lines that are continued, and vertices after the faces.
+inline std::string as_dressed_obj(const Soup& soup)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << "\xEF\xBB\xBFmtllib m.mtl\no s\ng a b\nvn 0 0 1\n";
+  std::size_t n = 0;
+  for(const auto& face : squares(soup))
+  {
+    if(n++ % 7 == 3)
+      out << "usemtl " << n << "\ns " << n % 3 << "\r\ng\nl 1 2\r";
+    out << "f \\\n";
+    for(std::uint32_t v : face)
+      out << ' ' << v + 1 << (n % 3 == 0 ? "" : "//1");
+    out << '\n';
+  }
+  for(const auto& p : soup.points)
+    out << "v " << p[0] << ' ' << p[1] << " \\\r\n" << p[2] << " 0.5 0.5 0.5\n";
+  return out.str();
+}
+
+// Strips, before the vertices, with another element between.
+inline std::string as_strips(const Soup& soup)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << "ply\rformat ascii 1.0\relement tristrips 1\rproperty list int int vertex_indices\relement edge 1\rproperty list uchar float a\r"
+         "element vertex " << soup.points.size() << "\rproperty float x\rproperty double y\rproperty list uchar uchar b\rproperty double z\rend_header\r"
+      << 4 * soup.triangles.size();
+  for(const auto& t : soup.triangles)
+    out << ' ' << t[0] << ' ' << t[1] << ' ' << t[2] << " -1";
+  out << "\r2 0.5 0.5\r";
+  for(const auto& p : soup.points)
+    out << p[0] << ' ' << p[1] << " 0 " << p[2] << '\r';
+  return out.str();
+}
+
+enum File_format { TEXT_OFF, TEXT_OBJ, TEXT_PLY, BINARY_PLY, TEXT_STL, BINARY_STL, POLYGON_OFF, DRESSED_OBJ, STRIP_PLY, NUMBER_OF_FORMATS };
 
 inline void set_mesh(const Soup& soup, int format, Input& input)
 {
-  static const std::uint8_t extensions[NUMBER_OF_FORMATS] = { 0, 1, 2, 2, 3, 3 };
+  static const std::uint8_t extensions[NUMBER_OF_FORMATS] = { 0, 1, 2, 2, 3, 3, 0, 1, 2 };
   input.choices[FORMAT] = extensions[format];
-  input.mesh = format == TEXT_OFF ? as_off(soup) : format == TEXT_OBJ ? as_obj(soup)
-    : format <= BINARY_PLY ? as_ply(soup, format == TEXT_PLY) : as_stl(soup, format == TEXT_STL);
+  switch(format)
+  {
+    case TEXT_OFF:    input.mesh = as_off(soup); break;
+    case TEXT_OBJ:    input.mesh = as_obj(soup); break;
+    case POLYGON_OFF: input.mesh = as_polygons(soup); break;
+    case DRESSED_OBJ: input.mesh = as_dressed_obj(soup); break;
+    case STRIP_PLY:   input.mesh = as_strips(soup); break;
+    case TEXT_PLY:
+    case BINARY_PLY:  input.mesh = as_ply(soup, format == TEXT_PLY); break;
+    default:          input.mesh = as_stl(soup, format == TEXT_STL);
+  }
 }
 
 // the same surface in all formats, as the mesh of the input
@@ -635,6 +819,12 @@ inline Input with_cones(Input input, std::uint8_t choice)
   return input;
 }
 
+inline Input with_way(Input input, Way way, int vertex = 0)
+{
+  input.choices[WAY] = static_cast<std::uint8_t>(way + NUMBER_OF_WAYS * vertex);
+  return input;
+}
+
 // All of them have solutions.
 inline std::vector<Input> valid_inputs()
 {
@@ -664,6 +854,12 @@ inline std::vector<Input> valid_inputs()
   add_in_all_formats(with_cones(conditions(NOT_GIVEN, 2, 0, "", "0 180\n1 180\n2 180\n3 180\n"), cone_choice(SEAMLESS_FILE, 1, HALF_TURNS)),
                      octahedron(), inputs);
   add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), cone_choice(SEAMLESS_WITHIN_BOUND, 1)), grid(4, 0.3, 1), inputs);
+  for(Way w : {SPHERE, SPHERE_OF_AREAS, SPHERE_BY_VERTEX, SPHERE_WITH_DIGITS, REPAIR_TO_SPHERE})
+    add_in_all_formats(with_way(conditions(NOT_GIVEN, 2, 0), w, 3), w == SPHERE || w == REPAIR_TO_SPHERE ? cubes(one) : octahedron(), inputs);
+  for(Way w : {DISK, DISK_OF_AREAS, DISK_BY_VERTEX, DISK_AROUND_VERTEX, DISK_OF_POINTS, DISK_WITH_DIGITS})
+    add_in_all_formats(with_way(conditions(NOT_GIVEN, 1, 0, "", "", "", "0,1,2"), w, w == DISK_AROUND_VERTEX ? 5 : 0), grid(3, 0.3, 1), inputs);
+  for(Way w : {DIGITS, KEPT_BORDER, LOCAL_REPAIR, MOLLIFICATION, REPAIR, REPAIR_TO_DISK})
+    add_in_all_formats(with_way(conditions(NATURAL, 0, 0), w), grid(4, 0.3, 1), inputs);
   return inputs;
 }
 
@@ -726,6 +922,7 @@ private:
     input.choices[BOUNDARY] = static_cast<std::uint8_t>(is_closed ? std::size_t(NOT_GIVEN) : below(NUMBER_OF_BOUNDARIES));
     input.choices[ITERATIONS] = maximum_number_of_iterations;
     input.choices[CONES] = is_closed || below(4) == 0;
+    input.choices[WAY] = static_cast<std::uint8_t>(below(3) == 0 ? below(256) : std::size_t(PLANE));
     input.texts[ANGLE_FILE] = new_conditions();
     input.texts[CONE_FILE] = is_closed && below(8) != 0 ? new_cones(soup) : new_conditions();
   }
@@ -804,8 +1001,8 @@ private:
 
   void mutate_choice(Input& input)
   {
-    static const Choice most[] = { BOUNDARY, BOUNDARY, CONES, RETRIANGULATION, RETRIANGULATION, FLAGS, OUTPUTS, ITERATIONS };
-    const std::size_t i = below(64) == 0 ? std::size_t(FORMAT) : std::size_t(most[below(8)]);
+    static const Choice most[] = { BOUNDARY, CONES, WAY, WAY, RETRIANGULATION, RETRIANGULATION, FLAGS, OUTPUTS, ITERATIONS };
+    const std::size_t i = below(64) == 0 ? std::size_t(FORMAT) : std::size_t(most[below(sizeof most / sizeof *most)]);
     input.choices[i] = static_cast<std::uint8_t>(below(256));
   }
 
@@ -881,19 +1078,29 @@ private:
     }
   }
 
+  // From some place on.
+  void replace_line_ends(std::string& s)
+  {
+    static const char* ends[] = { "\r", "\r\n", "\\\n", " \\\r\n", "\n\xEF\xBB\xBF", "\n#", " " };
+    const std::string end = ends[below(sizeof ends / sizeof *ends)];
+    for(std::size_t at = s.find('\n', below(s.size())), n = 1 + below(16); at != std::string::npos && n > 0; at = s.find('\n', at + end.size()), --n)
+      s.replace(at, 1, end);
+  }
+
   void mutate_bytes(std::string& s)
   {
     static const float special[] = { 0.f, -0.f, 1.f, 1e-38f, 1e-45f, 1e38f, HUGE_VALF, -HUGE_VALF, NAN };
     if(s.empty())
       return;
     const std::size_t at = below(s.size()), n = (std::min)(s.size() - at, std::size_t(1) << below(8));
-    switch(below(7))
+    switch(below(8))
     {
       case 0: s[at] = static_cast<char>(s[at] ^ (1 << below(8))); break;
       case 1: s[at] = static_cast<char>(below(256)); break;
       case 2: s.erase(at, n); break;
       case 3: s.insert(below(s.size()), s.substr(at, n)); break;
       case 4: s.resize(at); break;
+      case 6: replace_line_ends(s); break;
       case 5:
         if(at + 4 <= s.size())
           std::memcpy(&s[at], &special[below(sizeof special / sizeof *special)], 4);

@@ -470,6 +470,8 @@ BOOST_AUTO_TEST_CASE(bad_condition_files)
   check("angles", "0 -90\n", "must be positive");
   check("angles", "0 inf\n", "not a finite number");
   check("scale", "0 nan\n", "not a finite number");
+  check("angles", "0 1.5707963\n4 3.1415926\n", "c.txt: all angles are below 7, as if they were in radians");
+  check("scale", "0 1000\n", "c.txt: line 1: vertex 0: u = 1000 is beyond the range, from -700 to 700");
   check_refused({input, "--boundary", "scale=" + (folder / "missing.txt")}, 1, "missing.txt: cannot be opened");
   const std::string both = folder.write("c.txt", "0 90\n");
   check_refused({input, "--boundary", "scale=" + both, "--boundary", "angles=" + both}, 1, "has a condition already");
@@ -477,8 +479,80 @@ BOOST_AUTO_TEST_CASE(bad_condition_files)
   std::string all;
   for(std::size_t v : border_of_grid(4))
     all += std::to_string(v) + " 90\n";
-  check("angles", all, "Gauss-Bonnet");
+  check("angles", all, "the prescribed angles sum up to 1080 degrees too little: on a component without fixed u they have to fit the Gauss-Bonnet formula");
   BOOST_TEST((folder.files() == std::set<std::string>{"grid.off", "c.txt"}));
+}
+
+// What is said, and what may help, where there is no result.
+BOOST_AUTO_TEST_CASE(explanations)
+{
+  const Folder folder;
+  const std::string grid = folder.write("grid.off", as_off(bumpy_grid(3)));
+  // Sums come first: the corner 3, in one triangle only, has 180 degrees, which is too much without flips, and 90 more than fit.
+  std::string angles;
+  for(std::size_t v : border_of_grid(3))
+    angles += std::to_string(v) + (v == 0 || v == 12 || v == 15 ? " 90\n" : " 180\n");
+  for(const char* mode : {"never", "when-needed", "always"})
+    check_refused({grid, "--boundary", "angles=" + folder.write("a.txt", angles), "--retriangulate", mode}, 1,
+                  "the prescribed angles sum up to 90 degrees too much");
+  // an angle out of its range alone
+  check_refused({grid, "--boundary", "angles=" + folder.write("a.txt", "3 180\n"), "--retriangulate", "never"}, 1,
+                "a prescribed angle is out of range: 180 degrees; vertex 3 (--retriangulate never; other values flip edges)");
+
+  // the edge that is too long: e^(-1.5) at two sides of lengths 1, and sqrt(2)
+  const std::string triangle = folder.write("triangle.off", off("0 0 0\n1 0 0\n0 1 0\n", "3 0 1 2\n"));
+  check_refused({triangle, "--keep-border", "--boundary", "scale=" + folder.write("u.txt", "0 -3\n")}, 1,
+                "the prescribed u give the edge 1-2 the length 1.414214, and the other edges of face 0 only 0.4462603 together");
+
+  // what may help where the iteration does not converge
+  check_refused({grid, "--max-iterations", "0"}, 1,
+                "(--max-iterations above 0, --retriangulate always, --precision 200 or --mollify 1e-4 may help)");
+  check_refused({grid, "--max-iterations", "0", "--retriangulate", "never", "--mollify", "1e-4", "--precision", "100"}, 1,
+                "(--retriangulate never; other values flip edges; --max-iterations above 0 or --precision above 100 may help)");
+}
+
+// A fan of three triangles whose border cannot keep its lengths: the apex is so far away that, without flips, the angles there sum up to little.
+// How far border edges are from their lengths, and cross ratios from those of the mesh, is what the files written show.
+BOOST_AUTO_TEST_CASE(what_flips_cost)
+{
+  const Folder folder;
+  const std::string input = folder.write("fan.off", off("0 0 9\n1 0 0\n-.5 .8 0\n-.5 -.8 0\n", "3 0 1 2\n3 0 2 3\n3 0 3 1\n"));
+  const std::vector<std::string> arguments = {input, "-o", folder / "o.obj", "--boundary", "scale=" + folder.write("u.txt", "1 0\n2 4\n3 4\n")};
+  const Run r = run(arguments);
+  BOOST_TEST_MESSAGE(r.out << r.err);
+  BOOST_TEST_REQUIRE(r.status == 0);
+  BOOST_TEST(contains(r.out, "border edges flipped"));
+  BOOST_TEST(contains(r.out, "% longer or shorter than u makes them (--keep-border)"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(run(with(arguments, {"--report", folder / "o.json"})).status == 0);
+  const nlohmann::json report = json(folder / "o.json");
+  const checking::Surface s = checking::read_surface(folder / "o.obj"), given = checking::read_surface(input);
+  BOOST_REQUIRE(report["refinement"].is_null());
+  const auto length = [](const auto& p, const auto& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); };
+  const double u[] = {0, 0, 4, 4};
+  double largest = 0;
+  for(std::size_t f = 0; f < 3; ++f) // the border edge is opposite to the apex, the first corner
+  {
+    const auto& t = given.faces[f];
+    const auto p = corner(s, f, 1), q = corner(s, f, 2);
+    largest = (std::max)(largest, std::abs(std::hypot(p[0] - q[0], p[1] - q[1])
+      / (std::exp((u[t[1]] + u[t[2]]) / 2) * length(given.points[t[1]], given.points[t[2]])) - 1));
+  }
+  BOOST_TEST(report["retriangulation"]["lost_border_length_error"].get<double>() == largest, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(report["retriangulation"]["straight_cross_ratio_error"].get<double>() > 0);
+#endif
+  // without flips there is nothing to tell
+  const std::string grid = folder.write("grid.off", as_off(bumpy_grid(4)));
+  BOOST_TEST(! contains(run({grid}).out, "cross ratio"));
+}
+
+// A triangle without area has no quasi-conformal factor.
+BOOST_AUTO_TEST_CASE(triangles_without_area)
+{
+  const Folder folder;
+  const Run r = run({folder.write("flat.off", off("0 0 0\n1 0 0\n2 0 0\n", "3 0 1 2\n"))});
+  BOOST_TEST((r.status == 1 || contains(r.out, "none: no triangle of the mesh has an area")));
+  BOOST_TEST(! contains(r.out, "mean 1, max 1"));
 }
 
 BOOST_AUTO_TEST_CASE(broken_triangles_are_named_and_nothing_is_written)

@@ -220,7 +220,7 @@ BOOST_AUTO_TEST_CASE(two_components)
     BOOST_TEST((t[0] >= 0 && t[0] <= 1 && t[1] >= 0 && t[1] <= 1));
 
   // the sphere alone lacks cones
-  check_refused({input, "-o", folder / "p.obj"}, 1, "needs cones, whose curvatures (2 pi - angle) sum up to 12.56");
+  check_refused({input, "-o", folder / "p.obj"}, 1, "needs cones, whose curvatures (360 - angle) sum up to 720 degrees");
   BOOST_TEST(! fs::exists(folder / "p.obj"));
 }
 
@@ -350,7 +350,7 @@ BOOST_AUTO_TEST_CASE(cones_place_themselves)
     check_refused(with({input, "-o", folder / "p.obj", "--cones", "auto=2"}, options), 1, "the bound on the distortion was not met: ");
   check_refused({input, "-o", folder / "p.obj", "--cones", "auto=1000"}, 1, "not enough vertices for the cones");
   const std::string sphere = write_off(folder, "sphere.off", testing::icosphere(1));
-  check_refused({sphere, "-o", folder / "p.obj", "--cones", "auto=2"}, 1, "at least three");
+  check_refused({sphere, "-o", folder / "p.obj", "--cones", "auto=2"}, 1, "a sphere needs three cones, at least");
   const std::string two = write_off(folder, "two.off", testing::together({testing::hill(4, .5), testing::hill(4, .5)}));
   check_refused({two, "-o", folder / "p.obj", "--cones", "auto=2"}, 1, "wrong topology: found 2 components");
   fs::remove(sphere);
@@ -430,9 +430,11 @@ BOOST_AUTO_TEST_CASE(bad_cone_files)
   const std::string sphere = write_off(folder, "sphere.off", testing::icosphere(2));
   const auto check_sphere = [&](const std::string& text, const std::string& reason)
     { check_refused({sphere, "-o", folder / "o.obj", "--cones", folder.write("c.txt", text)}, 1, reason); };
-  check_sphere("0 180\n1 180\n2 180\n", "Gauss-Bonnet");
+  check_sphere("0 180\n1 180\n2 180\n", "the prescribed angles sum up to 180 degrees too much: on a component without fixed u they have to fit the Gauss-Bonnet");
+  check_sphere("0 90\n1 120\n2 60\n", "the prescribed angles sum up to 90 degrees too little");
   check_sphere("# none\n", "needs cones");
-  check_sphere("0 free\n1 free\n", "leave none for the vertices of fixed scale");
+  check_sphere("0 free\n1 free\n", "leave none for the vertices of fixed scale: 0 degrees; vertices 0, 1 (a sphere needs three cones, at least)");
+  check_sphere("0 2.0944\n1 2.0944\n2 2.0944\n", "c.txt: all angles are below 7, as if they were in radians; they have to be in degrees");
   check_sphere("0 1000\n1 free\n2 free\n", "vertex 0"); // more than five triangles can have
   BOOST_TEST((folder.files() == std::set<std::string>{"grid.off", "sphere.off", "c.txt"}));
 

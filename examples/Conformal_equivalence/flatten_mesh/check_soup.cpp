@@ -1,21 +1,28 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "../include/flatten_mesh/Triangle_soup.h"
+#include "../include/flatten_mesh/Polygon_soup.h"
 #include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/repair_soup.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iomanip>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace flattening {
 
-void check_points(const Triangle_soup& soup, const std::string& file)
+void require_faces(const Polygon_soup& soup, const std::string& file)
+{
+  if(soup.faces.empty())
+    fail(file, ": there are no faces", soup.notices.empty() ? "" : text(" (", soup.notices.front(), ")"));
+}
+
+void check_points(const Polygon_soup& soup, const std::string& file)
 {
   for(std::size_t v = 0; v < soup.points.size(); ++v)
     for(double x : soup.points[v])
@@ -25,8 +32,7 @@ void check_points(const Triangle_soup& soup, const std::string& file)
 
 namespace {
 
-// The corners of the triangles at each vertex: for the triangle (v, a, b), in
-// this cyclic order, `next` is a and `previous` is b.
+// The corners of the faces at each vertex: for a face (..., b, v, a, ...), in this cyclic order, `next` is a and `previous` is b.
 class Vertex_stars
 {
 public:
@@ -36,23 +42,25 @@ public:
     bool operator<(const Corner& c) const { return next < c.next; }
   };
 
-  explicit Vertex_stars(const Triangle_soup& soup)
-    : first_(soup.points.size() + 1, 0), corners_(3 * soup.triangles.size())
+  explicit Vertex_stars(const Polygon_soup& soup)
+    : first_(soup.points.size() + 1, 0)
   {
-    for(const auto& t : soup.triangles)
-      for(std::uint32_t v : t)
+    for(const Polygon& face : soup.faces)
+      for(std::uint32_t v : face)
         ++first_[v + 1];
     for(std::size_t v = 0; v + 1 < first_.size(); ++v)
       first_[v + 1] += first_[v];
+    corners_.resize(first_.back());
     std::vector<std::size_t> free = first_;
-    for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+    for(std::size_t f = 0; f < soup.faces.size(); ++f)
     {
-      const auto& t = soup.triangles[f];
-      for(std::size_t k = 0; k < 3; ++k)
-        corners_[free[t[k]]++] = { t[(k + 1) % 3], t[(k + 2) % 3], static_cast<std::uint32_t>(f) };
+      const Polygon& face = soup.faces[f];
+      const std::size_t n = face.size();
+      for(std::size_t k = 0; k < n; ++k)
+        corners_[free[face[k]]++] = { face[(k + 1) % n], face[(k + n - 1) % n], static_cast<std::uint32_t>(f) };
     }
     for(std::size_t v = 0; v + 1 < first_.size(); ++v)
-      std::sort(corners_.begin() + first_[v], corners_.begin() + first_[v + 1]);
+      std::sort(corners_.begin() + std::ptrdiff_t(first_[v]), corners_.begin() + std::ptrdiff_t(first_[v + 1]));
   }
 
   std::size_t number_of_vertices() const { return first_.size() - 1; }
@@ -70,20 +78,58 @@ private:
   std::vector<Corner> corners_;
 };
 
-void check_triangles(const Triangle_soup& soup, const std::string& file)
+// The vertex `v` is at two corners of the face `f`.
+[[noreturn]] void fail_repeated_vertex(const Polygon_soup& soup, std::size_t f, std::uint32_t v, const std::string& file)
 {
-  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
+  const char* help = " twice (--repair drops or divides such faces)";
+  if(! soup.vertices_are_points)
+    fail(file, ": face ", f, " has the vertex ", v, help);
+  const auto& p = soup.points[v];
+  fail(file, ": points of face ", f, " coincide", soup.has_single_precision ? " in single precision, that of the file" : "",
+       std::setprecision(soup.has_single_precision ? 9 : 17), ": it has (", p[0], ", ", p[1], ", ", p[2], ')', help);
+}
+
+void check_faces(const Polygon_soup& soup, const std::string& file)
+{
+  for(std::size_t f = 0; f < soup.faces.size(); ++f)
   {
-    const auto& t = soup.triangles[f];
-    for(std::size_t k = 0; k < 3; ++k)
-      if(t[k] == t[(k + 1) % 3])
-        fail(file, ": face ", f, " has the vertex ", t[k], " twice");
+    Polygon face = soup.faces[f];
+    if(face.size() < 3)
+      fail(file, ": face ", f, " has only ", face.size(), face.size() == 1 ? " vertex" : " vertices", " (--repair drops such faces)");
+    std::sort(face.begin(), face.end());
+    const auto twice = std::adjacent_find(face.begin(), face.end());
+    if(twice != face.end())
+      fail_repeated_vertex(soup, f, *twice, file);
   }
 }
 
-// No edge in more than two triangles, nor passed twice in the same direction.
-// Returns the number of edges.
-std::size_t check_edges(const Vertex_stars& stars, const std::string& file)
+bool have_same_vertices(Polygon a, Polygon b)
+{
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
+}
+
+// Fails if two of the faces at an edge are the same, up to orientation.
+void refuse_duplicates(const Polygon_soup& soup, const std::vector<std::uint32_t>& faces, const std::string& file)
+{
+  for(std::size_t j = 1; j < faces.size() && j < 10; ++j)
+    for(std::size_t i = 0; i < j; ++i)
+      if(have_same_vertices(soup.faces[faces[i]], soup.faces[faces[j]]))
+        fail(file, ": the faces ", (std::min)(faces[i], faces[j]), " and ", (std::max)(faces[i], faces[j]),
+             " have the same vertices (--repair drops all but one of such faces)");
+}
+
+// Says why two faces that pass an edge v-w in the same direction cannot stay as they are.
+[[noreturn]] void fail_to_orient(const Polygon_soup& soup, std::uint32_t f, std::uint32_t g, std::size_t v, std::size_t w, const std::string& file)
+{
+  if(const auto conflict = find_orientation_conflict(soup))
+    fail(file, ": ", text_of(*conflict));
+  fail(file, ": the faces ", f, " and ", g, " have opposite orientations at the edge ", v, "-", w, " (--repair turns faces)");
+}
+
+// No edge in more than two faces, nor passed twice in the same direction. Returns the number of edges.
+std::size_t check_edges(const Polygon_soup& soup, const Vertex_stars& stars, const std::string& file)
 {
   std::size_t number_of_edges = 0;
   for(std::size_t v = 0; v < stars.number_of_vertices(); ++v)
@@ -92,18 +138,25 @@ std::size_t check_edges(const Vertex_stars& stars, const std::string& file)
       const std::uint32_t w = c->next;
       const auto there = stars.towards(v, w), back = stars.towards(w, static_cast<std::uint32_t>(v));
       const std::ptrdiff_t n = there.second - there.first, m = back.second - back.first;
-      if(n + m > 2)
-        fail(file, ": not a manifold: the edge ", v, "-", w, " lies in ", n + m, " faces (",
-             c->face, ", ", (c + 1 < there.second ? c + 1 : back.first)->face, ", ...)");
-      if(n == 2)
-        fail(file, ": the faces ", c->face, " and ", (c + 1)->face, " have opposite orientations at the edge ", v, "-", w);
+      if(n + m > 2 || n == 2)
+      {
+        std::vector<std::uint32_t> faces;
+        for(const auto& range : {there, back})
+          for(auto d = range.first; d != range.second; ++d)
+            faces.push_back(d->face);
+        refuse_duplicates(soup, faces, file);
+        if(n + m > 2)
+          fail(file, ": not a manifold: the edge ", v, "-", w, " lies in ", n + m, " faces (", faces[0], ", ", faces[1],
+               ", ...) (--repair takes them apart)");
+        fail_to_orient(soup, faces[0], faces[1], v, w, file);
+      }
       number_of_edges += (m == 0 || v < w);
       c = there.second;
     }
   return number_of_edges;
 }
 
-// The triangles at a vertex, one after the other around it: returns how many
+// The faces at a vertex, one after the other around it: returns how many
 // are reached from `c`. `first` is set where the fan has a beginning.
 std::size_t size_of_fan(const Vertex_stars& stars, std::size_t v, const Vertex_stars::Corner* c)
 {
@@ -119,7 +172,7 @@ std::size_t size_of_fan(const Vertex_stars& stars, std::size_t v, const Vertex_s
   return n;
 }
 
-// The triangles at each vertex form one fan.
+// The faces at each vertex form one fan.
 void check_vertices(const Vertex_stars& stars, const std::string& file)
 {
   for(std::size_t v = 0; v < stars.number_of_vertices(); ++v)
@@ -135,20 +188,19 @@ void check_vertices(const Vertex_stars& stars, const std::string& file)
         first = c;
     }
     if(size_of_fan(stars, v, first) != degree)
-      fail(file, ": not a manifold: the faces at the vertex ", v, " form more than one fan");
+      fail(file, ": not a manifold: the faces at the vertex ", v, " form more than one fan (--repair takes them apart)");
   }
 }
 
 } // namespace
 
-void check_soup(Triangle_soup& soup, const std::string& file)
+void check_soup(Polygon_soup& soup, const std::string& file)
 {
-  if(soup.triangles.empty())
-    fail(file, ": there are no faces");
+  require_faces(soup, file);
   check_points(soup, file);
-  check_triangles(soup, file);
+  check_faces(soup, file);
   const Vertex_stars stars(soup);
-  soup.number_of_edges = check_edges(stars, file);
+  soup.number_of_edges = check_edges(soup, stars, file);
   check_vertices(stars, file);
 }
 

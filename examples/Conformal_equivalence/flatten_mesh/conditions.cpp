@@ -5,13 +5,13 @@
 
 #include "../include/flatten_mesh/conditions.h"
 #include "../include/flatten_mesh/messages.h"
-#include "../include/flatten_mesh/read_soup.h"
+#include "../include/flatten_mesh/Polygon_soup.h"
 #include "../include/flatten_mesh/Scanner.h"
-#include "../include/flatten_mesh/Triangle_soup.h"
 
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
@@ -30,12 +30,10 @@ namespace flattening {
 namespace {
 
 // The vertex that a line of a file begins with.
-Vertex read_vertex(Scanner& in, const Mesh& mesh)
+Vertex read_vertex(Scanner& in, const Given_surface& given)
 {
   const std::int64_t i = in.integer_in_line();
-  if(i < 0 || static_cast<std::size_t>(i) >= mesh.number_of_vertices())
-    in.error("there is no vertex ", i, "; the mesh has ", mesh.number_of_vertices(), " vertices");
-  return Vertex(static_cast<Mesh::size_type>(i));
+  return given.vertex_of_mesh(i, text(in.file(), ": line ", in.line(), ": "));
 }
 
 void require_inside(const Scanner& in, const Mesh& mesh, Vertex v)
@@ -45,6 +43,27 @@ void require_inside(const Scanner& in, const Mesh& mesh, Vertex v)
   if(mesh.is_border(v))
     in.error("vertex ", v.idx(), " is on the border; a cone lies inside the surface");
 }
+
+// Whether angles of a file were in radians, and not in degrees, is seen by their size: a full turn has less than 7.
+class Unit_of_angles
+{
+public:
+  void add(double angle)
+  {
+    ++number_;
+    largest_ = (std::max)(largest_, angle);
+  }
+
+  void require_degrees(const std::string& file) const
+  {
+    if(number_ != 0 && largest_ < 7)
+      fail(file, ": all angles are below 7, as if they were in radians; they have to be in degrees");
+  }
+
+private:
+  std::size_t number_ = 0;
+  double largest_ = 0;
+};
 
 // A number of degrees; of a multiple of 360 / `quanta_of_turn`, if that is not zero, its rounding is undone.
 double multiple_of_quantum(const Scanner& in, Vertex v, double degrees, unsigned int quanta_of_turn)
@@ -74,21 +93,26 @@ double cone_angle(const Scanner& in, Vertex v, std::string_view word, unsigned i
 // lines "vertex-index [angle in degrees | free]" of the file; # begins a comment. Each vertex is
 // inside the surface and is listed once. No angle is free if all are to be multiples of 360 / `quanta_of_turn`.
 template <typename Fix, typename Prescribe>
-void read_cone_file(const std::string& file, const Mesh& mesh, unsigned int quanta_of_turn, Fix fix, Prescribe prescribe)
+void read_cone_file(const std::string& file, const Mesh& mesh, const Given_surface& given, unsigned int quanta_of_turn, Fix fix, Prescribe prescribe)
 {
   const std::string content = read_file(file);
   Scanner in(content, file, '#');
   std::unordered_map<std::size_t, std::size_t> line_of;
+  Unit_of_angles unit;
   for(; ! in.at_end(); in.skip_line())
   {
-    const Vertex v = read_vertex(in, mesh);
+    const Vertex v = read_vertex(in, given);
     require_inside(in, mesh, v);
     const auto listed = line_of.emplace(v.idx(), in.line());
     if(! listed.second)
       in.error("vertex ", v.idx(), " is listed twice, first in line ", listed.first->second);
     const std::string_view word = in.word_in_line();
     if(! word.empty() && word != "free")
-      prescribe(v, cone_angle(in, v, word, quanta_of_turn));
+    {
+      const double angle = cone_angle(in, v, word, quanta_of_turn);
+      unit.add(angle / CGAL_PI * 180);
+      prescribe(v, angle);
+    }
     else if(quanta_of_turn == 0)
       fix(v);
     else
@@ -97,18 +121,19 @@ void read_cone_file(const std::string& file, const Mesh& mesh, unsigned int quan
       in.error("vertex ", v.idx(), ": expected nothing after '", Scanner::printable(word), "', found '",
                Scanner::printable(in.word()), "'");
   }
+  unit.require_degrees(file);
 }
 
 // Calls `use(vertex, value)` for each line "vertex-index value" of the file; # begins
 // a comment. Each vertex is on the border and is named once, in `is_named`.
 template <typename Use>
-void read_condition_file(const std::string& file, const Mesh& mesh, std::vector<bool>& is_named, Use use)
+void read_condition_file(const std::string& file, const Mesh& mesh, const Given_surface& given, std::vector<bool>& is_named, Use use)
 {
   const std::string content = read_file(file);
   Scanner in(content, file, '#');
   for(; ! in.at_end(); in.skip_line())
   {
-    const Vertex v = read_vertex(in, mesh);
+    const Vertex v = read_vertex(in, given);
     const double value = in.number_in_line();
     if(! in.at_end_of_line())
       in.error("expected only a vertex and a number");
@@ -123,20 +148,29 @@ void read_condition_file(const std::string& file, const Mesh& mesh, std::vector<
   }
 }
 
-void read_border_conditions(const Options& options, const Mesh& mesh, Conditions& conditions)
+// Beyond that e^u is no `double` with all of its digits.
+const double largest_log_scale_factor = 700;
+
+void read_border_conditions(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions)
 {
   std::vector<bool> is_named(mesh.number_of_vertices(), false);
+  Unit_of_angles unit;
   if(! options.angle_file.empty())
-    read_condition_file(options.angle_file, mesh, is_named, [&](const Scanner& in, Vertex v, double degrees)
+    read_condition_file(options.angle_file, mesh, given, is_named, [&](const Scanner& in, Vertex v, double degrees)
     {
       if(! (degrees > 0))
         in.error("the angle at vertex ", v.idx(), " must be positive");
+      unit.add(degrees);
       conditions.border_angle[v] = degrees / 180 * CGAL_PI;
       conditions.is_constrained[v] = false;
     });
+  unit.require_degrees(options.angle_file);
   if(! options.scale_file.empty())
-    read_condition_file(options.scale_file, mesh, is_named, [&](const Scanner&, Vertex v, double u)
+    read_condition_file(options.scale_file, mesh, given, is_named, [&](const Scanner& in, Vertex v, double u)
     {
+      if(std::abs(u) > largest_log_scale_factor)
+        in.error("vertex ", v.idx(), ": u = ", u, " is beyond the range, from ", -largest_log_scale_factor, " to ", largest_log_scale_factor,
+                 ": lengths are multiplied by e^u");
       conditions.u[v] = u;
     });
 }
@@ -192,35 +226,27 @@ void prescribe_a_rectangle(const Options& options, const Mesh& mesh, Conditions&
     conditions.is_constrained[mesh.target(h)] = false;
 }
 
-void set_cones(const Options& options, const Mesh& mesh, Conditions& conditions)
+void set_cones(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions)
 {
-  read_cone_file(options.cone_file, mesh, options.quanta_of_turn,
+  read_cone_file(options.cone_file, mesh, given, options.quanta_of_turn,
                  [&](Vertex v) { conditions.is_constrained[v] = true; },
                  [&](Vertex v, double angle) { conditions.cone_angle[v] = angle; });
 }
 
 } // namespace
 
-void build_mesh(const Triangle_soup& soup, const std::string& file, Mesh& mesh)
+void build_mesh(const Polygon_soup& soup, Mesh& mesh)
 {
   mesh.reserve(static_cast<Mesh::size_type>(soup.points.size()),
                static_cast<Mesh::size_type>(soup.number_of_edges),
-               static_cast<Mesh::size_type>(soup.triangles.size()));
+               static_cast<Mesh::size_type>(soup.faces.size()));
   for(const auto& p : soup.points)
     mesh.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
-  for(std::size_t f = 0; f < soup.triangles.size(); ++f)
-  {
-    const auto& t = soup.triangles[f];
-    if(mesh.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])) == Mesh::null_face())
-      fail(file, ": not a manifold at face ", f);
-  }
-}
-
-void read_mesh(const std::string& file, Mesh& mesh)
-{
-  Triangle_soup soup = read_soup(file);
-  check_soup(soup, file);
-  build_mesh(soup, file, mesh);
+  std::vector<std::vector<Vertex> > faces;
+  faces.reserve(soup.faces.size());
+  for(const Polygon& face : soup.faces)
+    faces.emplace_back(face.begin(), face.end());
+  CGAL::Euler::add_faces(faces, mesh); // all at once: face by face takes quadratic time around a vertex
 }
 
 bool is_on_border(const Mesh& mesh, Vertex v)
@@ -263,25 +289,28 @@ std::array<Vertex, 3> vertices_of_face(const Mesh& mesh, Face f)
   return {{ mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)) }};
 }
 
-Conditions::Conditions(Mesh& mesh)
+Conditions::Conditions(const Given_surface& given, Mesh& mesh)
   : border_angle(mesh.add_property_map<Vertex, double>("v:border_angle", CGAL_PI).first),
     cone_angle(mesh.add_property_map<Vertex, double>("v:cone_angle", 2 * CGAL_PI).first),
     u(mesh.add_property_map<Vertex, double>("v:prescribed_u", 0.).first),
-    is_constrained(mesh.add_property_map<Vertex, bool>("v:is_constrained", false).first)
+    is_constrained(mesh.add_property_map<Vertex, bool>("v:is_constrained", false).first),
+    is_diagonal(mesh.add_property_map<Mesh::Edge_index, bool>("e:is_diagonal", false).first)
 {
+  for(Mesh::Edge_index e : mesh.edges())
+    is_diagonal[e] = flattening::is_diagonal(given, mesh, e);
   for(Halfedge h : mesh.halfedges())
     if(mesh.is_border(h))
       is_constrained[mesh.target(h)] = true;
 }
 
-void set_conditions(const Options& options, const Mesh& mesh, Conditions& conditions)
+void set_conditions(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions)
 {
   if(! options.cone_file.empty())
-    set_cones(options, mesh, conditions);
+    set_cones(options, mesh, given, conditions);
   if(options.is_rectangle)
     prescribe_a_rectangle(options, mesh, conditions);
   else
-    read_border_conditions(options, mesh, conditions);
+    read_border_conditions(options, mesh, given, conditions);
 }
 
 } // namespace flattening

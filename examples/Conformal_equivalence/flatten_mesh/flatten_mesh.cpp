@@ -4,16 +4,18 @@
 #include "../include/flatten_mesh/flatten_mesh.h"
 #include "../include/flatten_mesh/conditions.h"
 #include "../include/flatten_mesh/doors.h"
+#include "../include/flatten_mesh/explain.h"
 #include "../include/flatten_mesh/figures.h"
+#include "../include/flatten_mesh/Given_surface.h"
 #include "../include/flatten_mesh/mesh.h"
 #include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/OBJ_attribute_writer.h"
 #include "../include/flatten_mesh/options.h"
 #include "../include/flatten_mesh/Output_files.h"
 #include "../include/flatten_mesh/solve.h"
 #include "../include/flatten_mesh/Stopwatch.h"
 #include "../include/flatten_mesh/write_outputs.h"
 
-#include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 #include <CGAL/Conformal_equivalence/version.h>
@@ -30,47 +32,12 @@ namespace flattening {
 
 namespace {
 
-// What may help.
-const char* advice(const Options& options, const Report& report)
-{
-  const char* flips = " (--retriangulate never; other values flip edges)";
-  const bool keeps_triangulation = ! options.local_repair && options.retriangulation == CE::Retriangulation::NEVER;
-  if(options.target != Target::PLANE && keeps_triangulation && report.status == CE::Status::NOT_INJECTIVE)
-    return flips;
-  switch(report.status)
-  {
-    case CE::Status::ANGLE_OUT_OF_RANGE:
-      return keeps_triangulation && report.amount > 0 ? flips : "";
-    case CE::Status::DEGENERATE_METRIC:
-    case CE::Status::ITERATIONS_EXHAUSTED:
-      return keeps_triangulation ? flips : "";
-    case CE::Status::WRONG_TOPOLOGY:
-      return options.target == Target::SPHERE ? "; --target sphere takes closed surfaces of genus 0, of one component"
-           : options.target == Target::DISK ? "; --target disk takes surfaces of genus 0 with one border, of one component" : "";
-    case CE::Status::MISSING_CONDITION:
-      return options.places_cones ? " (a sphere: at least three)" : options.cone_file.empty() ? " (--cones FILE or --cones auto=N)" : "";
-    case CE::Status::BOUND_NOT_MET:
-      return " (more cones, or a looser bound, may help)";
-    case CE::Status::NOT_INJECTIVE: // by rounding: the metric is one; or by a deformation
-      if(options.seamless || options.places_cones)
-        return options.seamless ? " (more --tiles or other --cones may help)" : "";
-      return options.precision_in_bits == bits_of_double && ! options.local_repair ? " (--precision BITS has more digits)" : "";
-    default:
-      return "";
-  }
-}
-
-// Says why there is no result.
-[[noreturn]] void fail_to_flatten(const Options& options, const Report& report)
-{
-  fail(options.input, ": ", CE::message(report), advice(options, report));
-}
-
-std::string list_of_faces(const std::vector<Face>& faces)
+// Faces of the mesh that is written.
+std::string list_of_faces(const std::vector<Face>& faces, const Figures& figures)
 {
   std::string list;
   for(std::size_t i = 0; i < faces.size() && i < 10; ++i)
-    list += text(i == 0 ? " " : ", ", faces[i].idx());
+    list += text(i == 0 ? " " : ", ", figures.number_of_made_faces != 0 ? faces[i].idx() : figures.given->face(faces[i]));
   return faces.size() > 10 ? list + ", ..." : list;
 }
 
@@ -79,7 +46,7 @@ std::string lost_triangles(const Options& options, const Figures& figures)
 {
   const std::vector<Face>& faces = figures.image.lost_faces;
   return text(options.input, ": ", count(faces.size(), "triangle is", "triangles are"), " not positive, because points were rounded: ",
-              faces.size() == 1 ? "face" : "faces", list_of_faces(faces), figures.is_refined ? " of the refined mesh" : "",
+              faces.size() == 1 ? "face" : "faces", list_of_faces(faces, figures), figures.is_refined ? " of the refined mesh" : "",
               " (--precision BITS has more digits)");
 }
 
@@ -94,36 +61,59 @@ void require_verdict(const Options& options, const Figures& figures)
   }
   if(verdict.number_of_flipped_triangles != 0)
     fail(options.input, ": the layout flips ", verdict.number_of_flipped_triangles, " triangles: faces",
-         list_of_faces(verdict.flipped_faces));
+         list_of_faces(verdict.flipped_faces, figures));
   if(options.require_injective && verdict.injectivity != CE::Injectivity::YES)
     fail(options.input, ": the layout is ", verdict.injectivity == CE::Injectivity::NO ? "not" : "not known to be", " injective",
-         verdict.number_of_degenerate_triangles != 0 ? text(": degenerate faces", list_of_faces(verdict.degenerate_faces))
+         verdict.number_of_degenerate_triangles != 0 ? text(": degenerate faces", list_of_faces(verdict.degenerate_faces, figures))
                                                      : text(": its border overlaps in ", verdict.crossing_borders.size(), " places"));
 }
 
-// Reads, solves, judges, writes; throws a `Failure` that says what went wrong.
-void run(const Options& options, std::ostream& out, std::ostream& err)
+// Whether an output goes to the standard output, which is then for nothing else.
+bool is_output_in_stream(const Options& options)
 {
-  const Material_files beside(options.target == Target::SPHERE ? "" : options.obj); // there is no texture on the sphere
-  Output_files files;
+  return is_standard_stream(options.obj) || is_standard_stream(options.svg) || is_standard_stream(options.html)
+      || is_standard_stream(options.report);
+}
+
+// What of the file was skipped, or is not written.
+void print_notices(std::ostream& err, const Options& options, const Given_surface& given, const Result& drawn)
+{
+  const auto print = [&](const std::string& notice) { err << "flatten_mesh: " << one_line(text(options.input, ": ", notice)) << std::endl; };
+  for(const std::string& notice : given.notices)
+    print(notice);
+  if(! options.obj.empty() && ! given.attributes.face_normals.empty() && (options.target == Target::SPHERE || ! drawn.given_face.empty()))
+    print("its normals are not written: they are not those of the mesh that is written");
+}
+
+// Reads, solves, judges, writes; throws a `Failure` that says what went wrong.
+void run(const Options& given_options, std::ostream& out, std::ostream& err)
+{
+  Options options = given_options;
+  Material_files beside(options.target == Target::SPHERE ? "" : options.obj); // there is no texture on the sphere
+  Output_files files(out);
   announce_outputs(options, beside, files);
 
   const CE::Working_precision precision(options.precision_in_bits);
   const Stopwatch watch;
   Mesh mesh;
-  read_mesh(options.input, mesh);
+  const Given_surface given = read_surface(options.input, options.repair, mesh);
+  options = with_vertices_of_mesh(options, given);
+  if(all_faces_have_a_material(given.attributes))
+    withdraw_material(beside, files);
   Figures figures;
+  figures.given = &given;
   figures.reading_seconds = watch.seconds();
 
-  Conditions conditions(mesh);
-  set_conditions(options, mesh, conditions);
+  Conditions conditions(given, mesh);
+  set_conditions(options, mesh, given, conditions);
   Results results(mesh);
   {
     Progress progress(err, ! options.quiet && is_terminal(err));
     figures.report = flatten(options, conditions, results, progress);
+    name_as_given(given, figures.report);
   }
   if(! figures.report)
-    fail_to_flatten(options, figures.report);
+    fail(options.input, ": ", explanation(options, given, mesh, conditions, figures.report));
   find_range_of_u(results.given, figures);
 
   const bool is_refined = is_refinement_needed(options, figures.report, results.refinement);
@@ -136,7 +126,11 @@ void run(const Options& options, std::ostream& out, std::ostream& err)
   write_outputs(options, mesh, drawn, beside, figures, files);
   if(options.quiet)
     return;
-  print_summary(out, options, mesh, figures);
+  print_notices(err, options, given, drawn);
+  print_summary(is_output_in_stream(options) ? err : out, options, mesh, figures);
+  if(! beside.foreign_material.empty())
+    err << "flatten_mesh: " << one_line(text("the material is in ", beside.material, ": ", beside.foreign_material,
+                                             " was not written by this program, and is kept")) << std::endl;
   if(! figures.image.lost_faces.empty())
     err << "flatten_mesh: " << one_line(lost_triangles(options, figures)) << std::endl;
 }

@@ -125,11 +125,12 @@ std::vector<Seam_path> seam_paths(const Mesh& mesh, const UV_map& uv, const Repo
 void find_range_of_u(const Result& result, Figures& figures)
 {
   const Mesh& mesh = result.mesh;
+  const Given_surface& given = *figures.given;
   figures.u_min = std::numeric_limits<double>::infinity();
   figures.u_max = -figures.u_min;
   for(Vertex v : mesh.vertices())
     if(mesh.is_isolated(v))
-      ++figures.number_of_isolated_vertices;
+      figures.number_of_isolated_vertices += given.representative_of(v.idx()) == v.idx(); // what was merged belongs to the surface
     else
     {
       figures.u_min = (std::min)(figures.u_min, result.u[v]);
@@ -164,6 +165,7 @@ void judge(const Options& options, const Result& given, Result& drawn, Figures& 
     figures.seams = seam_paths(drawn.mesh, drawn.uv, figures.report);
   else if(drawn.wide.is_used) // the triangles were found to be positive before they were rounded
     forget_rounded_triangles(figures);
+  find_errors_of_straight_edges(options, given, &given == &drawn, figures);
   figures.verifying_seconds = watch.seconds();
 }
 

@@ -9,13 +9,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace flattening {
@@ -72,6 +75,8 @@ po::options_description visible_options()
     ("keep-border", po::bool_switch(), "no border edge is flipped, so that all are as long as u at their ends makes them; fails where that cannot be")
     ("refine", po::bool_switch(), "if edges were flipped, write the mesh of the parts into which they cut the triangles, on which the "
        "map is projective; otherwise this is done with --projective, and where the triangles are flipped if their edges are drawn straight")
+    ("repair", po::bool_switch(), "first make the surface an oriented manifold: equal points are merged, degenerate and duplicate faces "
+       "dropped, faces turned, and the surface is taken apart where it is no manifold. No vertex is moved, and every face of INPUT is in the OBJ file")
     ("local-repair", po::bool_switch(), "no flips on the way; instead, where triangles break, edges of a copy of the mesh are flipped or split, "
        "and the copy is written")
     ("mollify", po::value<std::string>()->default_value("0"), "add the least constant to all lengths with which every triangle inequality "
@@ -84,6 +89,9 @@ po::options_description visible_options()
     ("precision", po::value<std::string>()->default_value("double"), "double | BITS: computes with numbers of so many bits (up to 4096), "
        "as exactly as they allow, and writes all of their digits")
     ("solver", po::value<std::string>(), "the linear solver: cholmod or simplicial, as far as compiled in")
+    ("default-input", po::value<std::string>(), "FILE: the INPUT if none is given; for scripts")
+    ("default-output", po::value<std::string>(), "FOLDER: where NAME.obj, NAME.svg and NAME.json are written, NAME being that of INPUT without its "
+       "extension, if none of -o, --svg, --html and --report is given; for scripts")
     ("quiet", po::bool_switch(), "no summary and no progress")
     ("help,h", po::bool_switch(), "show this text")
     ("version", po::bool_switch(), "show the version");
@@ -395,6 +403,65 @@ std::string output_file(const po::variables_map& values, const char* option)
   return file;
 }
 
+// Whether the extension is this one, in upper or lower case.
+bool has_extension(const std::string& file, std::string extension)
+{
+  std::string found = std::filesystem::path(file).extension().string();
+  std::transform(found.begin(), found.end(), found.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return found == extension;
+}
+
+// Whether something is there that is no regular file, such as a device, which may have any name.
+bool is_special_file(const std::string& file)
+{
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored) && ! std::filesystem::is_regular_file(file, ignored);
+}
+
+// What is written where nothing else was asked for.
+void set_default_outputs(const std::string& folder, Options& options)
+{
+  const std::string name = options.input == "-" ? "layout" : std::filesystem::path(options.input).stem().string();
+  const auto output = [&](const char* extension) { return (std::filesystem::path(folder) / (name + extension)).string(); };
+  std::error_code ignored; // what cannot be written is told later
+  std::filesystem::create_directories(folder, ignored);
+  options.obj = output(".obj");
+  options.svg = output(".svg");
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  options.report = output(".json");
+#endif
+}
+
+// The files to be read and written.
+void parse_files(const po::variables_map& values, Options& options)
+{
+  options.obj = output_file(values, "output");
+  options.svg = output_file(values, "svg");
+  options.html = output_file(values, "html");
+  options.report = output_file(values, "report");
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  if(! options.report.empty())
+    throw Usage_error("--report is not available: the program was built without nlohmann-json");
+#endif
+  if(! options.obj.empty() && options.obj != "-" && ! std::filesystem::path(options.obj).extension().empty()
+     && ! has_extension(options.obj, ".obj") && ! is_special_file(options.obj))
+    throw Usage_error(text("-o writes OBJ files, named *.obj, not '", options.obj, "'"));
+  if(values.count("input") || values.count("default-input"))
+    options.input = values[values.count("input") ? "input" : "default-input"].as<std::string>();
+  if(options.obj.empty() && options.svg.empty() && options.html.empty() && options.report.empty() && values.count("default-output"))
+    set_default_outputs(values["default-output"].as<std::string>(), options);
+}
+
+// The standard input and output can be used once each.
+void check_standard_streams(const Options& options)
+{
+  const auto number = [](const std::vector<std::string>& files) { return std::count(files.begin(), files.end(), "-"); };
+  if(number({options.input, options.cone_file, options.angle_file, options.scale_file}) > 1)
+    throw Usage_error("the standard input, '-', can be read only once");
+  if(number({options.obj, options.svg, options.html, options.report}) > 1)
+    throw Usage_error("only one output can be written to the standard output, '-'");
+}
+
 // The linear solvers compiled in, the default first.
 std::vector<std::string> solver_names()
 {
@@ -414,7 +481,8 @@ std::string help_text()
          "Flattens a triangle mesh (OFF, OBJ, PLY or STL) of any topology by an exact discrete conformal map:\n"
          "the layout has the length cross ratios of the mesh. What is no topological disk, or has cones, is\n"
          "cut open. Closed surfaces without handles are also mapped to the sphere, disks to the unit disk.\n"
-         "Vertices are counted from 0.\n"
+         "Faces with more than three sides are divided into triangles to compute, and written as they were.\n"
+         "Vertices and faces are counted from 0. The file '-' is the standard input or output.\n"
          "Exit status: 0 done, no triangle flipped (on sphere and disk: but for those that rounding has cost,\n"
          "which are counted); 1 failed, nothing is written; 2 wrong usage.\n\n"
       << visible_options();
@@ -430,17 +498,9 @@ Options parse_options(int argc, const char* const argv[])
   if(options.is_help || options.is_version)
     return options;
   refuse_unknown_values(values);
-  if(! values.count("input"))
+  parse_files(values, options);
+  if(options.input.empty())
     throw Usage_error("no INPUT is given");
-  options.input = values["input"].as<std::string>();
-  options.obj = output_file(values, "output");
-  options.svg = output_file(values, "svg");
-  options.html = output_file(values, "html");
-  options.report = output_file(values, "report");
-#ifndef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
-  if(! options.report.empty())
-    throw Usage_error("--report is not available: the program was built without nlohmann-json");
-#endif
   if(values.count("boundary"))
     parse_boundary(values["boundary"].as<std::vector<std::string> >(), options);
   parse_target(values, options);
@@ -451,6 +511,7 @@ Options parse_options(int argc, const char* const argv[])
   options.retriangulation = parse_retriangulation(values["retriangulate"].as<std::string>());
   options.keep_border = values["keep-border"].as<bool>();
   options.refine = values["refine"].as<bool>();
+  options.repair = values["repair"].as<bool>();
   options.local_repair = values["local-repair"].as<bool>();
   if(options.local_repair && ! values["retriangulate"].defaulted())
     throw Usage_error("--local-repair and --retriangulate exclude each other");
@@ -461,6 +522,7 @@ Options parse_options(int argc, const char* const argv[])
   options.quiet = values["quiet"].as<bool>();
   if(values.count("solver"))
     options.solver = values["solver"].as<std::string>();
+  check_standard_streams(options);
   return options;
 }
 

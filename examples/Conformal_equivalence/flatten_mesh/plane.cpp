@@ -15,6 +15,7 @@ Report flatten_in_the_plane(const Options& options, const Conditions& conditions
 {
   Progress_visitor visitor(progress);
   return CE::flatten(results.given.mesh, results.given.uv, flattening_parameters(options, conditions, results, visitor)
+                                                             .edge_is_constrained_map(conditions.is_diagonal)
                                                              .common_refinement(std::ref(results.refinement)));
 }
 

@@ -18,7 +18,9 @@ Report flatten_precisely(const Options& options, const Conditions& conditions, R
   Result& given = results.given;
   use_wide_points(given.mesh, given.wide);
   const Report report = CE::flatten<CE::Multiprecision_number>(given.mesh, given.wide.uv,
-    flattening_parameters(options, conditions, results, visitor).common_refinement(std::ref(given.wide.refinement)));
+    flattening_parameters(options, conditions, results, visitor)
+      .edge_is_constrained_map(conditions.is_diagonal)
+      .common_refinement(std::ref(given.wide.refinement)));
   if(report)
     round_layout(given.mesh, given.wide, given.uv, results.refinement);
   return report;

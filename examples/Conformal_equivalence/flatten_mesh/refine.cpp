@@ -127,6 +127,7 @@ void make_refined_mesh(const Options& options, const Result& given, const Refine
                                                 CGAL::parameters::projective_weight_map(refined.weight));
     if(elements.faces.empty())
       fail(options.input, ": ", CE::message(CE::Status::NOT_REPRESENTABLE));
+    refined.given_face.assign(parts.input_face.begin(), parts.input_face.end());
     return elements;
   };
   if(given.wide.is_used)

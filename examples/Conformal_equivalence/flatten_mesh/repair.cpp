@@ -9,7 +9,34 @@
 #include <CGAL/Conformal_equivalence/flatten_repaired.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
+#include <cstddef>
+#include <vector>
+
 namespace flattening {
+
+namespace {
+
+// Flips and splits keep the faces that were there, and add others, each beside the one that it was cut off from: along the
+// edge from the face's third vertex to the new one (`Intrinsic_triangulation::split_edge()`), which is the last of its vertices.
+std::vector<std::size_t> given_faces(const Mesh& given, const Mesh& repaired)
+{
+  std::vector<std::size_t> result;
+  for(Face f : repaired.faces())
+  {
+    result.push_back(f.idx());
+    if(f.idx() < given.number_of_faces())
+      continue;
+    Halfedge to_new = repaired.halfedge(f);
+    for(Halfedge h : repaired.halfedges_around_face(to_new))
+      if(repaired.target(h) > repaired.target(to_new))
+        to_new = h;
+    const Face beside = repaired.face(repaired.opposite(to_new));
+    result.back() = beside != Mesh::null_face() && beside < f ? result[beside.idx()] : 0; // the latter after further changes only
+  }
+  return result;
+}
+
+} // namespace
 
 Report flatten_repaired(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
 {
@@ -21,8 +48,11 @@ Report flatten_repaired(const Options& options, const Conditions& conditions, Re
   for(const auto& change : report.changes)
     ++(change.kind == change.FLIP ? results.repair.number_of_flips : results.repair.number_of_splits);
   if(report)
+  {
     for(Vertex v : given.mesh.vertices())
       given.u[v] = repaired.u[v]; // the vertices given come first
+    repaired.given_face = given_faces(given.mesh, repaired.mesh);
+  }
   Report result = report;
   for(const auto& transition : report.repaired_transitions) // counted only
     result.transitions.push_back({transition.halfedge, transition.rotation, transition.translation});

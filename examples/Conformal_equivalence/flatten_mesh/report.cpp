@@ -44,6 +44,51 @@ const char* injective_text(const Figures& figures)
   }
 }
 
+std::string mesh_text(const Mesh& mesh, const Given_surface& given)
+{
+  return given.is_mesh() ? text(mesh.number_of_vertices(), " vertices, ", mesh.number_of_faces(), " triangles")
+                         : text(given.number_of_vertices, " vertices, ", given.number_of_faces, " faces, as ", mesh.number_of_faces(), " triangles");
+}
+
+// What was done to the surface before it was flattened, by --repair.
+std::vector<std::pair<const char*, std::size_t> > repairs(const Repair_counts& counts)
+{
+  return { {"merged vertices", counts.merged_vertices}, {"stitched edges", counts.stitched_edges},
+           {"degenerate faces", counts.degenerate_faces}, {"duplicate faces", counts.duplicate_faces},
+           {"turned faces", counts.turned_faces}, {"non-manifold edges", counts.non_manifold_edges},
+           {"copied vertices", counts.copied_vertices} };
+}
+
+// Of the triangles that have an area.
+std::string quasi_conformal_text(const Mesh& mesh, const Figures& figures)
+{
+  const std::size_t without_area = figures.distortion.number_of_skipped_faces;
+  const bool is_refined = figures.number_of_made_faces != 0;
+  if(without_area == (is_refined ? figures.number_of_made_faces : mesh.number_of_faces()))
+    return "none: no triangle of the mesh has an area";
+  return text("mean ", figures.distortion.mean_quasi_conformal_factor, ", max ", figures.distortion.maximum_quasi_conformal_factor,
+              without_area == 0 ? "" : text(", without ", count(without_area, "triangle", "triangles"), " of no area"));
+}
+
+// Edges that are not as long as u at their ends makes them, and by how much.
+std::string lost_border_text(const Figures& figures)
+{
+  const std::size_t n = figures.report.lost_border_edges.size();
+  return std::isnan(figures.border_length_error) ? text(n)
+         : text(n, ", up to ", 100 * figures.border_length_error, " % longer or shorter than u makes them (--keep-border)");
+}
+
+void add_repair(const Given_surface& given, Lines& lines)
+{
+  if(! given.repair)
+    return;
+  std::string done;
+  for(const auto& [name, number] : repairs(*given.repair))
+    if(number != 0)
+      done += text(done.empty() ? "" : ", ", name, ": ", number);
+  lines.emplace_back("repair", done.empty() ? "nothing to do" : done);
+}
+
 // What a disk without cones does not have.
 void add_topology(const Report& report, Lines& lines)
 {
@@ -111,7 +156,8 @@ Lines summary(const Options& options, const Mesh& mesh, const Figures& figures)
 {
   const CE::Statistics& s = figures.report.statistics;
   Lines lines;
-  lines.emplace_back("mesh", text(mesh.number_of_vertices(), " vertices, ", mesh.number_of_faces(), " triangles"));
+  lines.emplace_back("mesh", mesh_text(mesh, *figures.given));
+  add_repair(*figures.given, lines);
   add_topology(figures.report, lines);
   add_tiling(figures, lines);
   if(options.target != Target::PLANE)
@@ -123,7 +169,7 @@ Lines summary(const Options& options, const Mesh& mesh, const Figures& figures)
   if(s.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION && s.conformal_class != CE::Conformal_class::REPAIRED)
     lines.emplace_back("triangulation", text(class_text(s), ": ", s.number_of_flips, " flips", s.is_doubled ? ", on the double" : ""));
   if(! figures.report.lost_border_edges.empty())
-    lines.emplace_back("border edges flipped", text(figures.report.lost_border_edges.size()));
+    lines.emplace_back("border edges flipped", lost_border_text(figures));
   if(figures.repair.number_of_flips + figures.repair.number_of_splits != 0)
     lines.emplace_back("local repair", text(count(figures.repair.number_of_flips, "flip", "flips"), ", ",
                                             count(figures.repair.number_of_splits, "split", "splits")));
@@ -131,8 +177,7 @@ Lines summary(const Options& options, const Mesh& mesh, const Figures& figures)
     lines.emplace_back(figures.is_refined ? "refined mesh" : "repaired mesh",
                        text(figures.number_of_made_vertices, " vertices, ", figures.number_of_made_faces, " triangles"));
   lines.emplace_back("log scale factor u", text("from ", figures.u_min, " to ", figures.u_max));
-  lines.emplace_back("quasi-conformal factor", text("mean ", figures.distortion.mean_quasi_conformal_factor,
-                                                     ", max ", figures.distortion.maximum_quasi_conformal_factor));
+  lines.emplace_back("quasi-conformal factor", quasi_conformal_text(mesh, figures));
   lines.emplace_back("flipped triangles", text(figures.verdict.number_of_flipped_triangles, " (exact)",
     options.target != Target::PLANE && figures.verdict.number_of_flipped_triangles != 0 ? ", by rounding" : ""));
   if(figures.verdict.number_of_degenerate_triangles != 0)
@@ -140,6 +185,8 @@ Lines summary(const Options& options, const Mesh& mesh, const Figures& figures)
   if(figures.number_of_rounded_triangles != 0)
     lines.emplace_back("triangles too small", text(figures.number_of_rounded_triangles, " for double"));
   lines.emplace_back("injective", injective_text(figures));
+  if(! std::isnan(figures.cross_ratio_error))
+    lines.emplace_back("cross ratio error", text(figures.cross_ratio_error, ", of the straight triangles (--refine has none)"));
   if(! std::isnan(figures.report.layout_length_error))
     lines.emplace_back("largest length error", text(figures.report.layout_length_error));
   if(options.target != Target::PLANE)
@@ -195,6 +242,21 @@ const char* mode_text(const Options& options)
   }
 }
 
+// By kind, with underscores for spaces; null without --repair.
+nlohmann::ordered_json json_repair(const Given_surface& given)
+{
+  if(! given.repair)
+    return nullptr;
+  auto json = nlohmann::ordered_json::object();
+  for(const auto& [name, number] : repairs(*given.repair))
+  {
+    std::string key = name;
+    std::replace_if(key.begin(), key.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+    json[key] = number;
+  }
+  return json;
+}
+
 nlohmann::ordered_json json_cones(const Report& report)
 {
   auto cones = nlohmann::ordered_json::array();
@@ -209,11 +271,11 @@ nlohmann::ordered_json json_cones(const Report& report)
   return cones;
 }
 
-nlohmann::ordered_json json_flattened_cones(const Report& report)
+nlohmann::ordered_json json_flattened_cones(const Figures& figures)
 {
   auto vertices = nlohmann::ordered_json::array();
-  for(Vertex v : report.flattened_cones)
-    vertices.push_back(v.idx());
+  for(Vertex v : figures.report.flattened_cones)
+    vertices.push_back(figures.given->vertex(v));
   return vertices;
 }
 
@@ -224,7 +286,7 @@ nlohmann::ordered_json json_seamless(const Figures& figures)
     return nullptr;
   auto seams = nlohmann::ordered_json::array();
   for(const Seam_path& path : figures.seams)
-    seams.push_back({ {"from", path.from.idx()}, {"to", path.to.idx()}, {"edges", path.number_of_edges}, {"rotation", path.quanta},
+    seams.push_back({ {"from", figures.given->vertex(path.from)}, {"to", figures.given->vertex(path.to)}, {"edges", path.number_of_edges}, {"rotation", path.quanta},
                       {"translation", path.translation} });
   nlohmann::ordered_json json = { {"symmetry", t.symmetry}, {"tiles", t.number_of_tiles}, {"scale", t.scale},
                                   {"rotation_degrees", in_degrees(t.rotation)},
@@ -267,14 +329,18 @@ std::string json_report(const Options& options, const Mesh& mesh, const Figures&
   nlohmann::ordered_json json;
   json["status"] = status_text(figures);
   json["target"] = target_text(options.target);
-  json["vertices"] = mesh.number_of_vertices();
-  json["faces"] = mesh.number_of_faces();
+  json["vertices"] = figures.given->number_of_vertices;
+  json["faces"] = figures.given->number_of_faces;
+  json["triangles"] = mesh.number_of_faces();
+  json["repair"] = json_repair(*figures.given);
   json["isolated_vertices"] = figures.number_of_isolated_vertices;
   json["genus"] = t.genus;
   json["borders"] = t.number_of_borders;
   json["components"] = t.number_of_components;
   json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips}, {"doubled", s.is_doubled},
-                              {"lost_border_edges", figures.report.lost_border_edges.size()} };
+                              {"lost_border_edges", figures.report.lost_border_edges.size()},
+                              {"lost_border_length_error", figures.border_length_error},
+                              {"straight_cross_ratio_error", figures.cross_ratio_error} };
   json["refinement"] = nullptr;
   if(figures.is_refined)
     json["refinement"] = { {"crossings", figures.number_of_crossings}, {"vertices", figures.number_of_made_vertices},
@@ -293,12 +359,15 @@ std::string json_report(const Options& options, const Mesh& mesh, const Figures&
   json["u_min"] = figures.u_min;
   json["u_max"] = figures.u_max;
   json["cones"] = json_cones(figures.report);
-  json["flattened_cones"] = json_flattened_cones(figures.report);
+  json["flattened_cones"] = json_flattened_cones(figures);
   json["seamless"] = json_seamless(figures);
   json["seam_edges"] = figures.report.transitions.size();
   json["lattices"] = json_lattices(figures.report);
-  json["quasi_conformal"] = { {"mean", figures.distortion.mean_quasi_conformal_factor},
-                              {"max", figures.distortion.maximum_quasi_conformal_factor} };
+  const bool has_factor = figures.distortion.number_of_skipped_faces
+                          != (figures.number_of_made_faces != 0 ? figures.number_of_made_faces : mesh.number_of_faces());
+  json["quasi_conformal"] = { {"mean", has_factor ? figures.distortion.mean_quasi_conformal_factor : not_a_number},
+                              {"max", has_factor ? figures.distortion.maximum_quasi_conformal_factor : not_a_number},
+                              {"triangles_without_area", figures.distortion.number_of_skipped_faces} };
   json["flipped_triangles"] = figures.verdict.number_of_flipped_triangles;
   json["degenerate_triangles"] = figures.verdict.number_of_degenerate_triangles;
   json["triangles_lost_in_double"] = figures.number_of_rounded_triangles;

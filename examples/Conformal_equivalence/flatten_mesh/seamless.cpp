@@ -36,7 +36,7 @@ Report flatten_seamlessly(const Options& options, const Conditions& conditions, 
   Progress_visitor visitor(progress);
   const Stopwatch watch;
   Result& given = results.given;
-  const auto tiling = tiling_parameters(options, results, visitor);
+  const auto tiling = tiling_parameters(options, results, visitor).edge_is_constrained_map(conditions.is_diagonal);
   const Report report = options.places_cones
     ? CE::compute_seamless_parameterization(given.mesh, given.uv, tiling)
     : CE::compute_seamless_parameterization(given.mesh, given.uv,

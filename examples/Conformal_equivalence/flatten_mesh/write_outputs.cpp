@@ -8,16 +8,21 @@
 #include "../include/flatten_mesh/write_HTML.h"
 #include "../include/flatten_mesh/write_material.h"
 #include "../include/flatten_mesh/write_SVG.h"
+#include "../include/flatten_mesh/Written_faces.h"
 
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
+#include <CGAL/boost/graph/properties.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <ostream>
 #include <string>
 #include <system_error>
@@ -32,26 +37,55 @@ std::string name_without_folder(const std::string& file)
   return std::filesystem::path(file).filename().string();
 }
 
-// The mesh with these points; numbers with as many digits as it takes to read them back.
+// A vertex with this point, with as many digits as it takes to read it back.
 template <typename Point>
-bool write_sphere_OBJ(std::ostream& out, const Mesh& mesh, const std::vector<Point>& points)
+void write_vertex(Text_buffer& buffer, const Point& point)
 {
+  buffer << 'v';
+  for(const auto& x : point)
+    CE::internal::write_obj_number(buffer << ' ', x);
+  buffer << '\n';
+}
+
+// The faces with the images of their vertices.
+template <typename Point>
+bool write_sphere_OBJ(std::ostream& out, const Given_surface& given, const Result& result, const OBJ_attributes& attributes,
+                      const std::vector<Point>& points)
+{
+  const Written_faces faces(given, result);
+  OBJ_attribute_writer attribute_writer(attributes, false, CE::IO::OBJ_material());
   {
     Text_buffer buffer(out);
-    for(Vertex v : mesh.vertices())
-    {
-      buffer << 'v';
-      for(const auto& x : points[v.idx()])
-        CE::internal::write_obj_number(buffer << ' ', x);
-      buffer << '\n';
-    }
-    for(Face f : mesh.faces())
-    {
-      buffer << 'f';
-      for(Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
-        buffer << ' ' << v.idx() + 1;
-      buffer << '\n';
-    }
+    attribute_writer.write_libraries(buffer);
+    for(std::size_t v = 0; v < points.size(); ++v)
+      write_vertex(buffer, points[faces.are_of_file() && v < given.number_of_vertices ? given.representative_of(v) : v]);
+    write_face_lines(buffer, faces, attribute_writer, true, [](Text_buffer&, Halfedge) {});
+  }
+  out.flush();
+  return out.good();
+}
+
+// The faces, with the layout `uv` of the mesh as texture coordinates: each corner of a face has one.
+template <typename Uv, typename Weights>
+bool write_layout_OBJ(std::ostream& out, const Given_surface& given, const Result& result, const OBJ_attributes& attributes,
+                      const Uv& uv, const Weights& weights, const CE::IO::OBJ_material& material)
+{
+  const Mesh& mesh = result.mesh;
+  const Written_faces faces(given, result);
+  OBJ_attribute_writer attribute_writer(attributes, faces.are_of_file(), material);
+  const auto number = get(CGAL::dynamic_halfedge_property_t<std::size_t>(), mesh);
+  {
+    Text_buffer buffer(out);
+    attribute_writer.write_libraries(buffer);
+    if(faces.are_of_file() && ! given.is_mesh())
+      for(const auto& point : given.soup.points)
+        write_vertex(buffer, point);
+    else
+      for(Vertex v : mesh.vertices())
+        write_vertex(buffer, std::array<double, 3>{{ mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z() }});
+    CE::internal::write_obj_texture_coordinates(buffer, mesh, uv, weights, number);
+    attribute_writer.write_normals(buffer);
+    write_face_lines(buffer, faces, attribute_writer, false, [&](Text_buffer& b, Halfedge h) { b << '/' << get(number, h) + 1; });
   }
   out.flush();
   return out.good();
@@ -157,30 +191,24 @@ UV_map page_layout(const Figures& figures, const Result& result)
 // The material of a texture of squares, its squares half as wide as a tile and one of them in the centre of each, so that it fits across seams.
 void write_tile_material(std::ostream& out, const std::string& name, const std::string& texture)
 {
-  out << "newmtl " << name << "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd -o 0.25 0.25 -s 1 1 1 " << texture << '\n';
+  out << material_beginning(name) << "-o 0.25 0.25 -s 1 1 1 " << texture << '\n';
 }
 
-void write_sphere(const Options& options, const Result& result, Output_files& files)
+// Writes the faces of the file, unless another mesh was made.
+void write_obj(const Options& options, const Given_surface& given, const Result& result, const Material_files& beside, Output_files& files)
 {
-  files.write(options.obj, [&](std::ostream& out)
-  {
-    return result.wide_image.empty() ? write_sphere_OBJ(out, result.mesh, result.image) : write_sphere_OBJ(out, result.mesh, result.wide_image);
-  });
-}
-
-void write_obj(const Options& options, const Result& result, const Material_files& beside, Output_files& files)
-{
-  if(options.target == Target::SPHERE)
-    return write_sphere(options, result, files);
+  const OBJ_attributes attributes = seen_from(options.obj, options.input, given.attributes);
   CE::IO::OBJ_material material;
   material.file = name_without_folder(beside.material);
   files.write(options.obj, [&](std::ostream& out)
   {
+    if(options.target == Target::SPHERE)
+      return result.wide_image.empty() ? write_sphere_OBJ(out, given, result, attributes, result.image)
+                                       : write_sphere_OBJ(out, given, result, attributes, result.wide_image);
     const auto write = [&](const auto& uv)
     {
-      return options.projective
-        ? CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::projective_weight_map(result.weight), material)
-        : CE::IO::write_OBJ(out, result.mesh, uv, CGAL::parameters::default_values(), material);
+      return options.projective ? write_layout_OBJ(out, given, result, attributes, uv, result.weight, material)
+                                : write_layout_OBJ(out, given, result, attributes, uv, CGAL::internal_np::Param_not_found(), material);
     };
     return result.wide.is_used ? write(result.wide.uv) : write(result.lattice_uv ? *result.lattice_uv : result.uv);
   });
@@ -198,6 +226,19 @@ void write_obj(const Options& options, const Result& result, const Material_file
   files.write(beside.texture, [](std::ostream& out) { return write_checkerboard_PNG(out); });
 }
 
+// A material file is overwritten only if this program has written it.
+bool may_be_overwritten(const std::string& material)
+{
+  std::error_code ignored;
+  if(! std::filesystem::exists(material, ignored))
+    return true;
+  const std::string beginning = material_beginning(CE::IO::OBJ_material().name);
+  std::ifstream in(material, std::ios::binary);
+  std::string found(beginning.size(), '\0');
+  in.read(&found[0], static_cast<std::streamsize>(found.size()));
+  return in.good() && found == beginning;
+}
+
 } // namespace
 
 Material_files::Material_files(const std::string& obj)
@@ -206,8 +247,17 @@ Material_files::Material_files(const std::string& obj)
   std::error_code ignored;
   if(path.extension().empty() || (std::filesystem::exists(path, ignored) && ! std::filesystem::is_regular_file(path, ignored)))
     return; // a device, for example
-  material = std::filesystem::path(path).replace_extension(".mtl").string();
-  texture = std::filesystem::path(path).replace_extension(".checker.png").string();
+  const auto beside = [&](const char* extension) { return std::filesystem::path(path).replace_extension(extension).string(); };
+  material = beside(".mtl");
+  if(! may_be_overwritten(material))
+  {
+    foreign_material = material;
+    material = beside(".layout.mtl");
+    if(! may_be_overwritten(material))
+      fail("the material files ", foreign_material, " and ", material, " are there, and were not written by this program; neither is overwritten "
+           "(give -o another name, or remove one)");
+  }
+  texture = beside(".checker.png");
 }
 
 void announce_outputs(const Options& options, const Material_files& beside, Output_files& files)
@@ -226,16 +276,27 @@ void announce_outputs(const Options& options, const Material_files& beside, Outp
       files.announce(file);
 }
 
+void withdraw_material(Material_files& beside, Output_files& files)
+{
+  files.withdraw(beside.material);
+  files.withdraw(beside.texture);
+  beside = Material_files("");
+}
+
 void write_outputs(const Options& options, const Mesh& mesh, Result& result, const Material_files& beside,
                           Figures& figures, Output_files& files)
 {
   const Stopwatch watch;
+  const bool has_faces_of_file = &result.mesh == &mesh && ! figures.given->is_mesh();
   if(! options.obj.empty())
-    write_obj(options, result, beside, files);
+    write_obj(options, *figures.given, result, beside, files);
   if(! options.svg.empty() || ! options.html.empty())
   {
     const Face_map<double> colors = face_colors(options, result);
-    const HTML_options drawing = drawing_options(options, mesh, figures);
+    HTML_options drawing = drawing_options(options, mesh, figures);
+    if(has_faces_of_file)
+      for(Mesh::Edge_index e : mesh.edges())
+        drawing.svg.hidden_edges.push_back(is_diagonal(*figures.given, mesh, e));
     const UV_map layout = options.target == Target::SPHERE ? hemispheres(result) : result.uv;
     if(! options.svg.empty())
       files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, drawing.svg); });

@@ -12,7 +12,6 @@
 #include "test_meshes.h"
 
 #include "../../../examples/Conformal_equivalence/include/flatten_mesh/flatten_mesh.h"
-#include "../../../examples/Conformal_equivalence/include/flatten_mesh/Triangle_soup.h"
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
 #  include <nlohmann/json.hpp>
@@ -114,7 +113,12 @@ inline void check_refused(const std::vector<std::string>& arguments, int status,
 
 // --- meshes -------------------------------------------------------------------------------------
 
-typedef flattening::Triangle_soup Soup;
+// Vertices and triangles, counted from 0.
+struct Soup
+{
+  std::vector<std::array<double, 3> > points;
+  std::vector<std::array<std::uint32_t, 3> > triangles;
+};
 
 // n by n squares, each of two triangles, over a bumpy height field
 inline Soup bumpy_grid(std::size_t n)
@@ -190,7 +194,7 @@ inline testing::Soup bumpy_sphere(int levels)
   return soup;
 }
 
-inline Soup program_soup(const testing::Soup& soup) { return { soup.points, soup.triangles, 0 }; }
+inline Soup program_soup(const testing::Soup& soup) { return { soup.points, soup.triangles }; }
 
 inline std::string write_off(const Folder& folder, const std::string& name, const testing::Soup& soup)
 {

@@ -5,60 +5,76 @@
 #define FLATTEN_MESH_OUTPUT_FILES_H
 
 #include "messages.h"
+#include "Temporary_files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <random>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
 
 namespace flattening {
 
+// What stands for the standard output, or input, where the name of a file is expected.
+inline bool is_standard_stream(const std::string& file) { return file == "-"; }
+
 // Files that appear together, whole, or not at all: each is written under another name
 // beside its place, and renamed when all are there. (What is no regular file,
-// such as a device, is written in place.)
+// such as a device, is written in place.) If the program is interrupted, nothing is left of them.
 class Output_files
 {
 public:
-  Output_files() = default;
+  // What is written to "-" goes to `standard_output` in the end.
+  explicit Output_files(std::ostream& standard_output) : standard_output_(standard_output) {}
   Output_files(const Output_files&) = delete;
   Output_files& operator=(const Output_files&) = delete;
 
   ~Output_files()
   {
     for(const Entry& e : entries_)
-      if(! e.temporary.empty())
-        remove(e.temporary);
+      remove_temporary(e);
   }
 
   // Announces a file, and makes sure that it can be written. Nothing is left of the trial.
   void announce(const std::string& path)
   {
-    Entry entry{path, target(path), ""};
+    Entry entry{path, is_standard_stream(path) ? path : target(path), "", ""};
     for(const Entry& e : entries_)
       if(e.target == entry.target)
         throw Usage_error(text("two outputs have the same name ", path));
-    std::error_code ignored;
-    if(std::filesystem::is_directory(entry.target, ignored))
-      fail("cannot write ", path, ": it is a directory");
-    if(! exists(entry.target) || is_regular(entry.target))
-      entry.temporary = temporary_name(entry.target);
-    try_to_open(entry);
+    if(! is_standard_stream(path))
+      find_place(entry);
     entries_.push_back(entry);
   }
 
-  bool is_announced(const std::string& path) const { return find(path) != nullptr; }
+  // Takes back the announcement of a file that will not be written.
+  void withdraw(const std::string& path)
+  {
+    entries_.erase(std::remove_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.path == path; }), entries_.end());
+  }
 
   // `write(out)` returns whether it succeeded.
   template <typename Write>
   void write(const std::string& path, Write write)
   {
-    const Entry& entry = *find(path);
+    Entry& entry = *find(path);
     errno = 0;
+    if(is_standard_stream(path))
+    {
+      std::ostringstream out;
+      if(! write(out))
+        fail("cannot write to the standard output", reason());
+      entry.content = out.str();
+      return;
+    }
+    if(! entry.temporary.empty())
+      remove_if_interrupted(entry.temporary);
     std::ofstream out(entry.temporary.empty() ? entry.target : entry.temporary, std::ios::binary);
     const bool is_written = out.good() && write(out) && out.flush().good();
     out.close();
@@ -72,6 +88,8 @@ public:
     for(std::size_t i = 0; i < entries_.size(); ++i)
     {
       Entry& entry = entries_[i];
+      if(is_standard_stream(entry.path) && ! (standard_output_ << entry.content).flush().good())
+        fail("cannot write to the standard output", reason());
       if(entry.temporary.empty())
         continue;
       std::error_code error;
@@ -83,12 +101,32 @@ public:
             remove(entries_[j].target);
         fail("cannot write ", entry.path, ": ", error.message());
       }
+      forget_temporary_file(entry.temporary);
       entry.temporary.clear();
     }
   }
 
 private:
-  struct Entry { std::string path, target, temporary; };
+  struct Entry { std::string path, target, temporary, content; };
+
+  // Where a file is written first, if not in its place.
+  static void find_place(Entry& entry)
+  {
+    std::error_code ignored;
+    if(std::filesystem::is_directory(entry.target, ignored))
+      fail("cannot write ", entry.path, ": it is a directory");
+    if(! exists(entry.target) || is_regular(entry.target))
+      entry.temporary = temporary_name(entry.target);
+    try_to_open(entry);
+  }
+
+  static void remove_temporary(const Entry& entry)
+  {
+    if(entry.temporary.empty())
+      return;
+    remove(entry.temporary);
+    forget_temporary_file(entry.temporary);
+  }
 
   static std::string reason() { return errno ? text(": ", std::strerror(errno)) : std::string(); }
 
@@ -137,19 +175,23 @@ private:
     errno = 0;
     if(exists(entry.target) && ! std::ofstream(entry.target, std::ios::app).good())
       fail("cannot write ", entry.path, reason());
-    if(! std::ofstream(entry.temporary).good())
-      fail("cannot write ", entry.path, reason());
-    remove(entry.temporary);
+    remove_if_interrupted(entry.temporary);
+    const bool is_good = std::ofstream(entry.temporary).good();
+    const std::string why = reason();
+    remove_temporary(entry);
+    if(! is_good)
+      fail("cannot write ", entry.path, why);
   }
 
-  const Entry* find(const std::string& path) const
+  Entry* find(const std::string& path)
   {
-    for(const Entry& e : entries_)
+    for(Entry& e : entries_)
       if(e.path == path)
         return &e;
     return nullptr;
   }
 
+  std::ostream& standard_output_;
   std::vector<Entry> entries_;
 };
 

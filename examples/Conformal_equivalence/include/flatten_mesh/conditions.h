@@ -4,6 +4,7 @@
 #ifndef FLATTEN_MESH_CONDITIONS_H
 #define FLATTEN_MESH_CONDITIONS_H
 
+#include "Given_surface.h"
 #include "mesh.h"
 #include "options.h"
 
@@ -14,12 +15,13 @@ struct Conditions
 {
   Vertex_map<double> border_angle, cone_angle, u;
   Vertex_map<bool> is_constrained;
+  Mesh::Property_map<Mesh::Edge_index, bool> is_diagonal; // of a face with more than three sides: no cut passes there
 
   // u = 0 on all borders: they keep their lengths; no cones
-  explicit Conditions(Mesh& mesh);
+  Conditions(const Given_surface& given, Mesh& mesh);
 };
 
-void set_conditions(const Options& options, const Mesh& mesh, Conditions& conditions);
+void set_conditions(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions);
 
 } // namespace flattening
 

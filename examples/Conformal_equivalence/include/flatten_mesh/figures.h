@@ -4,6 +4,7 @@
 #ifndef FLATTEN_MESH_FIGURES_H
 #define FLATTEN_MESH_FIGURES_H
 
+#include "Given_surface.h"
 #include "image_figures.h"
 #include "mesh.h"
 #include "options.h"
@@ -24,6 +25,7 @@ namespace flattening {
 // Everything that is known at the end.
 struct Figures
 {
+  const Given_surface* given = nullptr;
   Report report;
   CE::Layout_verdict<Mesh> verdict;
   CE::Conformal_distortion<Mesh> distortion;
@@ -32,6 +34,10 @@ struct Figures
   std::size_t number_of_isolated_vertices = 0;
   std::size_t number_of_rounded_triangles = 0; // with --precision: those that are positive, but not in double
   double u_min = 0, u_max = 0;
+
+  // If edges were flipped, of the edges of the mesh as straight edges of the layout; NaN: none were, or these are not what is written
+  double border_length_error = not_a_number; // largest relative error of border edges that were flipped, to what u makes their length
+  double cross_ratio_error = not_a_number;   // largest relative error of length cross ratios
 
   // the mesh written, if it is not the one given: the common refinement, or a repaired copy
   bool is_refined = false;
@@ -44,6 +50,9 @@ struct Figures
 void find_range_of_u(const Result& result, Figures& figures);
 
 void describe_made_mesh(const Results& results, bool is_refined, Figures& figures);
+
+// `is_written` says whether the triangles of the mesh given are, and no refinement of them.
+void find_errors_of_straight_edges(const Options& options, const Result& given, bool is_written, Figures& figures);
 
 // `drawn` is what is written: `given`, or what was made of it.
 void judge(const Options& options, const Result& given, Result& drawn, Figures& figures);

@@ -27,12 +27,10 @@ template <typename T> using Vertex_map = Mesh::Property_map<Vertex, T>;
 template <typename T> using Face_map = Mesh::Property_map<Face, T>;
 typedef Mesh::Property_map<Halfedge, Kernel::Point_2>       UV_map;
 
-struct Triangle_soup;
+struct Polygon_soup;
 
-// Vertices and faces keep their order and number; so do vertices without a face.
-void build_mesh(const Triangle_soup& soup, const std::string& file, Mesh& mesh);
-
-void read_mesh(const std::string& file, Mesh& mesh);
+// Vertices and faces keep their order and number; so do vertices without a face. The soup is an oriented manifold.
+void build_mesh(const Polygon_soup& soup, Mesh& mesh);
 
 bool is_on_border(const Mesh& mesh, Vertex v);
 

@@ -36,6 +36,7 @@ struct Options
   double maximum_distortion = 1.02;
   bool unit_square = false;
   bool color_by_quasi_conformal_factor = false;
+  bool repair = false; // of the surface that the file holds
   bool keep_border = false, refine = false, local_repair = false, projective = false, require_injective = false, quiet = false;
   CGAL::Conformal_equivalence::Retriangulation retriangulation = CGAL::Conformal_equivalence::Retriangulation::WHEN_NEEDED;
   double tolerance = 1e-12;

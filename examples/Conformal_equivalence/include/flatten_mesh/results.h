@@ -28,6 +28,9 @@ struct Result
   Wide_layout wide; // with --precision
   std::optional<UV_map> lattice_uv; // with --lattice-coordinates: what is written instead of `uv`
 
+  // Of a mesh that was made: by face, the face given that it is part of, or that it is made of
+  std::vector<std::size_t> given_face;
+
   // With --target sphere or disk: the images of the vertices, in the plane z = 0 for the disk; the origin for isolated ones
   std::vector<Space_point> image;
   std::vector<Wide_space_point> wide_image; // with --precision

@@ -49,6 +49,9 @@ struct SVG_options
   double size = 1000;
   // Up to this many faces the edges are drawn, apart from very short ones;
   std::size_t maximum_number_of_faces_with_edges = 20000;
+
+  // By position in edges(tm): edges that are not drawn. Empty: there are none.
+  std::vector<bool> hidden_edges;
   // up to this many the triangles are drawn as such; those of larger meshes become an image of pixels.
   std::size_t maximum_number_of_drawn_faces = 250000;
   // Whether the two sides of each seam path are drawn in a colour of their own. A seam is an interior edge of the mesh
@@ -323,8 +326,11 @@ private:
   void write_edges(Text_buffer& out) const
   {
     out << "<path id=\"edges\" transform=\"scale(.01)\" fill=\"none\" stroke=\"#fff\" stroke-opacity=\".35\" stroke-width=\"40\" d=\"";
+    std::size_t i = 0;
     for(auto e : edges(tm_))
     {
+      if(i++ < options_.hidden_edges.size() && options_.hidden_edges[i - 1])
+        continue;
       halfedge_descriptor h = halfedge(e, tm_);
       if(is_border(h, tm_))
         h = opposite(h, tm_);

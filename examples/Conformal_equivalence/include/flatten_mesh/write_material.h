@@ -15,6 +15,12 @@
 
 namespace flattening {
 
+// What the materials of this program begin with; what follows is the texture.
+inline std::string material_beginning(const std::string& name)
+{
+  return "newmtl " + name + "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd ";
+}
+
 // Writes a material library with one material called `name`, matt and white, with the
 // picture in the file `texture` on it, which is repeated `repetitions` times in a
 // unit of the layout. Returns `true` iff the stream is good after writing.
@@ -23,8 +29,7 @@ inline bool write_MTL(std::ostream& out, const std::string& name, const std::str
 {
   {
     Text_buffer buffer(out);
-    buffer << "newmtl " << name << "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd -s "
-           << repetitions << ' ' << repetitions << " 1 " << texture << '\n';
+    buffer << material_beginning(name) << "-s " << repetitions << ' ' << repetitions << " 1 " << texture << '\n';
   }
   out.flush();
   return out.good();

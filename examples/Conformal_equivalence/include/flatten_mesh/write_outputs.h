@@ -18,12 +18,18 @@ namespace flattening {
 struct Material_files
 {
   std::string material, texture;
+  std::string foreign_material; // is in the place of the material, and is kept: it was not written by this program
 
+
+  // Throws a `Failure` if there is no place for the material.
   explicit Material_files(const std::string& obj);
 };
 
 // Announces the files that will be written. Throws a `Usage_error` if one would overwrite the input.
 void announce_outputs(const Options& options, const Material_files& beside, Output_files& files);
+
+// For surfaces that have materials of their own.
+void withdraw_material(Material_files& beside, Output_files& files);
 
 // `mesh` is what was given; `result` is drawn, of that mesh or of its refinement.
 void write_outputs(const Options& options, const Mesh& mesh, Result& result, const Material_files& beside,

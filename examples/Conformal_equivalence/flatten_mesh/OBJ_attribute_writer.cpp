@@ -1,0 +1,124 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "../include/flatten_mesh/OBJ_attribute_writer.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <system_error>
+
+namespace flattening {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What a line has to say for a face without it, after a face with it.
+std::optional<std::string> absent_value(std::size_t key)
+{
+  switch(key)
+  {
+    case OBJ_attributes::GROUP:     return "default"; // its name, if none is given
+    case OBJ_attributes::SMOOTHING: return "off";
+    default:                        return std::nullopt;
+  }
+}
+
+std::string path_seen_from(const fs::path& folder, const fs::path& path)
+{
+  std::error_code error;
+  const fs::path result = path.is_absolute() ? path : fs::relative(path, folder, error);
+  return error || result.empty() ? fs::absolute(path, error).generic_string() : result.generic_string();
+}
+
+// The names that follow `mtllib` in the file `input`, as they are seen from the file `output`.
+std::string libraries_seen_from(const std::string& output, const std::string& input, const std::string& names)
+{
+  if(names.empty())
+    return names;
+  std::error_code error;
+  const fs::path from = fs::path(input).parent_path(), to = fs::absolute(output, error).parent_path();
+  if(fs::equivalent(fs::absolute(from / ".", error), to, error))
+    return names;
+  if(fs::exists(from / names, error)) // a name may have spaces
+    return path_seen_from(to, from / names);
+  std::string result;
+  std::istringstream words(names);
+  for(std::string name; words >> name; )
+    result += (result.empty() ? "" : " ") + path_seen_from(to, from / name);
+  return result;
+}
+
+} // namespace
+
+void OBJ_attribute_writer::write_libraries(Text_buffer& out) const
+{
+  if(! material_.file.empty())
+    out << "mtllib " << material_.file << '\n';
+  for(const std::string& names : attributes_.libraries)
+    out << "mtllib " << names << '\n';
+}
+
+void OBJ_attribute_writer::write_normals(Text_buffer& out) const
+{
+  if(keeps_normals_)
+    for(const auto& n : attributes_.normals)
+      out << "vn " << n[0] << ' ' << n[1] << ' ' << n[2] << '\n';
+}
+
+OBJ_attributes::Section OBJ_attribute_writer::section(std::size_t number) const
+{
+  OBJ_attributes::Section result;
+  if(number > 0)
+    result = attributes_.sections[number - 1];
+  if(! result[OBJ_attributes::MATERIAL] && ! material_.file.empty())
+    result[OBJ_attributes::MATERIAL] = material_.name;
+  return result;
+}
+
+void OBJ_attribute_writer::write_before_face(Text_buffer& out, std::size_t face)
+{
+  const auto& first = attributes_.first_faces;
+  const std::size_t number = static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), face) - first.begin());
+  if(number == last_number_)
+    return;
+  last_number_ = number;
+  OBJ_attributes::Section lines = section(number);
+  for(std::size_t k = 0; k < lines.size(); ++k)
+  {
+    if(! lines[k] && last_[k])
+      lines[k] = absent_value(k);
+    if(lines[k] && lines[k] != last_[k])
+    {
+      out << OBJ_attributes::key_words[k] << (lines[k]->empty() ? "" : " ") << *lines[k] << '\n';
+      last_[k] = lines[k];
+    }
+  }
+}
+
+void OBJ_attribute_writer::write_after_corner(Text_buffer& out, std::size_t face, std::size_t corner) const
+{
+  if(keeps_normals_ && ! attributes_.face_normals[face].empty())
+    out << '/' << attributes_.face_normals[face][corner] + 1;
+}
+
+bool all_faces_have_a_material(const OBJ_attributes& attributes)
+{
+  return ! attributes.sections.empty() && attributes.first_faces.front() == 0 && attributes.sections.front()[OBJ_attributes::MATERIAL];
+}
+
+OBJ_attributes seen_from(const std::string& output, const std::string& input, OBJ_attributes attributes)
+{
+  std::error_code ignored;
+  const bool is_no_file = output == "-" || input == "-" || (fs::exists(output, ignored) && ! fs::is_regular_file(output, ignored));
+  for(std::string& names : attributes.libraries)
+    if(! is_no_file)
+      names = libraries_seen_from(output, input, names);
+  return attributes;
+}
+
+} // namespace flattening
