@@ -204,7 +204,7 @@ void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, 
   for(const auto& line : summary(options, mesh, figures))
     out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
   for(const std::string& file : {options.obj, options.svg, options.html, options.report})
-    if(! file.empty())
+    if(! file.empty() && file != "-")
       out << "  wrote " << file << '\n';
 }
 
