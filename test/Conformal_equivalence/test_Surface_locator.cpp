@@ -40,7 +40,6 @@ namespace {
 typedef CE::Common_refinement<double>     Refinement;
 typedef CE::Refinement_locator<double>    Refinement_locator;
 typedef CE::Surface_locator<double>       Locator;
-typedef CE::Exact_angle<double>           Angle;
 typedef std::array<double, 3>             Place;
 typedef std::pair<Index, Index>           Faces; // of the input, and of the metric's triangulation
 
@@ -110,6 +109,9 @@ Condition condition(const Locator::Face_map& map, const Place& b)
   return result;
 }
 
+// Relative: a bound on an error that is larger than that would say nothing.
+constexpr double meaningless = 1e-10;
+
 // The same parts, and the same places of all their corners.
 void check_parts(const Triangulation& t, const Refinement& r, const Locator& locator, const CE::Layout<double>& layout, Figures& figures)
 {
@@ -144,8 +146,8 @@ void check_parts(const Triangulation& t, const Refinement& r, const Locator& loc
                    weight_error = std::abs(there.weight / r.weights[r.corner_vertex[c]] - 1);
       figures.from_refinement = (std::max)(figures.from_refinement, apart);
       figures.weight = (std::max)(figures.weight, weight_error);
-      BOOST_TEST(apart <= (std::min)(4e-16 * (1 + growth.uv / size), 1e-10));
-      BOOST_TEST(weight_error <= (std::min)(4e-16 * (1 + growth.weight), 1e-10));
+      BOOST_TEST(apart <= (std::min)(few_roundings * (1 + growth.uv / size), meaningless));
+      BOOST_TEST(weight_error <= (std::min)(few_roundings * (1 + growth.weight), meaningless));
       for(std::size_t k = 0; k < 3; ++k)
         centre[k] += b[k] / double(n);
     }
@@ -191,10 +193,10 @@ void check_points(const Triangulation& t, const Refinement& r, const Locator& lo
     for(const auto& p : found)
     {
       BOOST_TEST((p.barycentric[0] >= 0 && p.barycentric[1] >= 0 && p.barycentric[2] >= 0));
-      BOOST_TEST(std::abs(p.barycentric[0] + p.barycentric[1] + p.barycentric[2] - 1) <= 4e-16);
+      BOOST_TEST(std::abs(p.barycentric[0] + p.barycentric[1] + p.barycentric[2] - 1) <= few_roundings);
       const double back = distance(locator.layout_point(p.input_face, p.barycentric).uv, uv) / size;
       figures.round_trip = (std::max)(figures.round_trip, back);
-      BOOST_TEST(back <= (std::min)(4e-16 * (1 + condition(locator.face_map(p.input_face), p.barycentric).uv / size), 1e-12));
+      BOOST_TEST(back <= (std::min)(few_roundings * (1 + condition(locator.face_map(p.input_face), p.barycentric).uv / size), meaningless));
     }
     return found;
   };
@@ -205,19 +207,20 @@ void check_points(const Triangulation& t, const Refinement& r, const Locator& lo
     const auto there = locator.layout_point(f, b);
     const double apart = distance(there.uv, built.layout_point(f, b).uv) / size;
     figures.from_refinement = (std::max)(figures.from_refinement, apart);
-    BOOST_TEST(apart <= 1e-12);
+    const double bound = few_roundings * (1 + condition(locator.face_map(f), b).uv / size);
+    BOOST_TEST(apart <= bound);
     const auto scaled = locator.layout_point(f, {{ 1e300 * b[0], 1e300 * b[1], 1e300 * b[2] }});
-    BOOST_TEST(distance(scaled.uv, there.uv) <= 4e-16 * (size + condition(locator.face_map(f), b).uv));
+    BOOST_TEST(distance(scaled.uv, there.uv) <= bound * size);
 
     const auto found = check_found(there.uv);
     const auto same = std::find_if(found.begin(), found.end(), [&](const auto& p) { return p.input_face == f; });
-    figures.points += same != found.end(); // unless rounding has moved the point across a border
-    BOOST_TEST((same != found.end() || built.surface_points(there.uv).empty()
-                || std::min({b[0], b[1], b[2]}) < 1e-10 || !r.is_positive()));
+    figures.points += same != found.end();
+    if(std::min({b[0], b[1], b[2]}) > 1e-10) // otherwise rounding may have moved the point across an edge
+      BOOST_TEST((same != found.end()));
     check_found({{ random(-.6, .6) * size, random(-.6, .6) * size }});
   }
   for(std::size_t c = 0; c < r.corner_uv.size(); c += 1 + r.corner_uv.size() / 100) // corners of several parts
-    BOOST_TEST((!check_found(r.corner_uv[c]).empty() || !r.is_positive()));
+    BOOST_TEST(!check_found(r.corner_uv[c]).empty());
   BOOST_TEST(locator.surface_points({{10 * size, 0}}).empty());
   BOOST_TEST(locator.surface_points({{std::nan(""), 0}}).empty());
   BOOST_TEST(locator.surface_points({{HUGE_VAL, 0}}).empty());
@@ -245,17 +248,17 @@ void check_continuity(const Triangulation& t, const CE::Cut_graph& cut, const CE
       c[g % 3] = b[(h + 1) % 3];
       c[(g + 1) % 3] = b[h % 3];
       const auto p = left.layout_point(b), q = right.layout_point(c);
-      BOOST_TEST(std::abs(p.weight / q.weight - 1) <= 4e-16);
+      BOOST_TEST(std::abs(p.weight / q.weight - 1) <= few_roundings);
       if(!cut[e])
       {
         figures.across_edges = (std::max)(figures.across_edges, distance(p.uv, q.uv) / size);
-        BOOST_TEST(distance(p.uv, q.uv) <= 4e-16 * size);
+        BOOST_TEST(distance(p.uv, q.uv) <= few_roundings * size);
       }
       else if(motion.count(h) != 0)
       {
         const Complex moved = motion[h].first * complex(p.uv) + motion[h].second;
         figures.across_cuts = (std::max)(figures.across_cuts, std::abs(moved - complex(q.uv)) / size);
-        BOOST_TEST(std::abs(moved - complex(q.uv)) <= 16 * std::ldexp(size, -53));
+        BOOST_TEST(std::abs(moved - complex(q.uv)) <= 2 * few_roundings * size);
       }
     }
   }
@@ -332,8 +335,8 @@ BOOST_AUTO_TEST_CASE(without_flips_it_is_the_map_of_the_triangles)
         sum += w * complex(layout.corner[t.previous(3 * f + k)]);
         weight += w;
       }
-      BOOST_TEST(std::abs(complex(there.uv) - sum / weight) <= 1e-14 * size);
-      BOOST_TEST(std::abs(there.weight / weight - 1) <= 1e-14);
+      BOOST_TEST(std::abs(complex(there.uv) - sum / weight) <= 2 * few_roundings * size); // each of the two
+      BOOST_TEST(std::abs(there.weight / weight - 1) <= 2 * few_roundings);
       BOOST_TEST(there.flat_face == f);
       BOOST_TEST(locator.face_map(f).number_of_parts() == 1u);
     }
@@ -343,6 +346,7 @@ BOOST_AUTO_TEST_CASE(without_flips_it_is_the_map_of_the_triangles)
 // Polygons inscribed in a circle: the map of all triangles is the same projective one, whatever is flipped.
 BOOST_AUTO_TEST_CASE(polygons_in_a_circle)
 {
+  const double rounding = 24 * 4 * few_roundings; // up to 24 triangles in a row, with weights that differ by some units
   Random random(7);
   double largest = 0;
   std::size_t crossings = 0;
@@ -378,8 +382,8 @@ BOOST_AUTO_TEST_CASE(polygons_in_a_circle)
           }
           const auto there = map.layout_point(b);
           largest = (std::max)(largest, std::abs(complex(there.uv) - sum / weight));
-          BOOST_TEST(std::abs(complex(there.uv) - sum / weight) <= 1e-11);
-          BOOST_TEST(std::abs(there.weight * *std::max_element(p.height.begin(), p.height.end()) / weight - 1) <= 1e-11);
+          BOOST_TEST(std::abs(complex(there.uv) - sum / weight) <= rounding);
+          BOOST_TEST(std::abs(there.weight * *std::max_element(p.height.begin(), p.height.end()) / weight - 1) <= rounding);
           const auto found = locator.surface_points(there.uv);
           BOOST_TEST_REQUIRE(!found.empty());
           BOOST_TEST(std::any_of(found.begin(), found.end(), [&](const auto& q)
@@ -616,7 +620,8 @@ BOOST_AUTO_TEST_CASE(more_digits)
     const Place b = random_place(random);
     const auto there = fine.layout_point(f, {{ Real_50(b[0]), Real_50(b[1]), Real_50(b[2]) }});
     const auto roughly = coarse.layout_point(f, b);
-    BOOST_TEST(distance({{ static_cast<double>(there.uv[0]), static_cast<double>(there.uv[1]) }}, roughly.uv) <= 1e-14 * size);
+    // ten strips long
+    BOOST_TEST(distance({{ static_cast<double>(there.uv[0]), static_cast<double>(there.uv[1]) }}, roughly.uv) <= 10 * few_roundings * size);
     BOOST_TEST(there.flat_face == roughly.flat_face);
     double nearest = HUGE_VAL;
     for(const auto& p : fine.surface_points(there.uv))
@@ -626,7 +631,7 @@ BOOST_AUTO_TEST_CASE(more_digits)
           const double difference = std::abs(static_cast<double>(Real_50(p.barycentric[k] - b[k] / (Real_50(b[0]) + b[1] + b[2]))));
           nearest = k == 0 ? difference : (std::max)(nearest, difference);
         }
-    BOOST_TEST(nearest <= 1e-45);
+    BOOST_TEST(nearest <= wide_rounding);
   }
 }
 

@@ -6,11 +6,10 @@
 
 #define BOOST_TEST_MODULE test_bounded_metric
 #include "include/boost_test.h"
-#include "include/test_meshes.h"
+#include "include/index_level.h"
 #include "include/wide_angle_sums.h"
 
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
-
 
 #include <algorithm>
 #include <cmath>
@@ -19,19 +18,13 @@
 
 namespace CE = CGAL::Conformal_equivalence;
 namespace params = CGAL::parameters;
-
-typedef CE::Intrinsic_triangulation<> Triangulation;
-typedef CE::Conformal_conditions<> Conditions;
-typedef CE::Conformal_metric<> Metric;
-typedef CE::Exact_angle<> Angle;
-typedef testing::Wide_real Real;
+using namespace testing;
+typedef Wide_real Real;
 using CE::Retriangulation;
 using CE::Status;
-using testing::Index;
 
 namespace {
 
-const double pi = CGAL_PI;
 const double infinity = std::numeric_limits<double>::infinity();
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -88,12 +81,12 @@ double largest_difference(const std::vector<double>& u, const std::vector<double
   return result;
 }
 
-void check_solution(const Triangulation& t, const Conditions& conditions, const Metric& metric, double tolerance = 1e-12)
+void check_solution(const Triangulation& t, const Conditions& conditions, const Metric& metric)
 {
   BOOST_REQUIRE_MESSAGE(metric.status == Status::OK, CE::message(metric.status) << ' ' << metric.amount);
   const Violation<double> violation(t, conditions, metric, metric.active_bounds);
-  BOOST_CHECK_LE(violation.angle, tolerance);
-  BOOST_CHECK_LE(violation.u, 1e-14); // of the u fixed, up to rounding
+  BOOST_CHECK_LE(violation.angle, testing::solver_tolerance);
+  BOOST_CHECK_LE(violation.u, testing::unmoved_u); // of the u fixed, up to rounding
   BOOST_CHECK(std::is_sorted(metric.active_bounds.begin(), metric.active_bounds.end()));
   for(Index v = 0; v < t.number_of_vertices(); ++v)
     if(conditions.is_bounded(v) && !t.is_isolated_vertex(v))
@@ -144,7 +137,7 @@ int brute_force(const Triangulation& t, const Conditions& conditions, Retriangul
     if(!trial)
       continue;
     const Violation<double> violation(t, conditions, trial, held);
-    if(violation.angle > 1e-11 || violation.u > 1e-11)
+    if(violation.angle > 10 * testing::solver_tolerance || violation.u > 10 * testing::solved_u) // what is no solution is far from being one
       continue;
     ++count;
     metric = trial;
@@ -177,7 +170,7 @@ void compare(const Triangulation& t, const Conditions& conditions, Retriangulati
   BOOST_CHECK_EQUAL(count, 1);
   BOOST_CHECK_EQUAL_COLLECTIONS(metric.active_bounds.begin(), metric.active_bounds.end(), active.begin(), active.end());
   if(count == 1)
-    BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, expected.log_scale_factors), 1e-11);
+    BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, expected.log_scale_factors), 2 * testing::solved_u);
   ++tally.solved;
   const std::size_t bounded = bounded_vertices(conditions).size();
   ++(active.empty() ? tally.none : active.size() == bounded ? tally.all : tally.some);
@@ -284,8 +277,6 @@ void torus(Retriangulation mode, unsigned seeds, Tally& tally)
     const Triangulation t = rough_torus(seed);
     Conditions conditions(t);
     testing::Random random(seed);
-    const Metric unbounded = CE::compute_conformal_metric(t, conditions);
-    BOOST_REQUIRE(unbounded || unbounded.status == Status::DEGENERATE_METRIC);
     const std::vector<Index> chosen = choose(4 + seed % 5, t.number_of_vertices(), random, [](Index) { return true; });
     for(const Index v : chosen)
       conditions.prescribe_angle_sum_above(v, 2 * pi + random(0, .5), random(-.3, .3));
@@ -300,7 +291,7 @@ BOOST_AUTO_TEST_CASE(disks_against_brute_force)
   Tally tally;
   disk(Retriangulation::NEVER, 24, tally);
   report("disks", tally);
-  BOOST_CHECK_GE(tally.solved, 20);
+  BOOST_CHECK_EQUAL(tally.solved, 24);
   BOOST_CHECK_GE(tally.some, 10);
 }
 
@@ -309,7 +300,7 @@ BOOST_AUTO_TEST_CASE(polygons_against_brute_force)
   Tally tally;
   polygon(Retriangulation::NEVER, 24, tally);
   report("polygons", tally);
-  BOOST_CHECK_GE(tally.solved, 12);
+  BOOST_CHECK_EQUAL(tally.solved, 24);
 }
 
 BOOST_AUTO_TEST_CASE(spheres_against_brute_force)
@@ -317,6 +308,8 @@ BOOST_AUTO_TEST_CASE(spheres_against_brute_force)
   Tally tally;
   sphere(Retriangulation::NEVER, 24, tally);
   report("spheres", tally);
+  BOOST_CHECK_EQUAL(tally.solved, 16);
+  BOOST_CHECK_EQUAL(tally.degenerate, 8); // bounds that are by 4 apart break triangles
 }
 
 BOOST_AUTO_TEST_CASE(tori_against_brute_force)
@@ -324,7 +317,7 @@ BOOST_AUTO_TEST_CASE(tori_against_brute_force)
   Tally tally;
   torus(Retriangulation::NEVER, 24, tally);
   report("tori", tally);
-  BOOST_CHECK_GE(tally.solved, 12);
+  BOOST_CHECK_EQUAL(tally.solved, 24);
 }
 
 BOOST_AUTO_TEST_CASE(flipped_surfaces_against_brute_force)
@@ -353,7 +346,7 @@ BOOST_AUTO_TEST_CASE(no_bound_active)
         conditions.prescribe_angle_sum_above(v, Angle::pi_times(2), unbounded.log_scale_factors[v] - random(.01, 3));
     const Metric metric = solved(t, conditions);
     BOOST_CHECK(metric.active_bounds.empty());
-    BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, unbounded.log_scale_factors), 1e-12);
+    BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, unbounded.log_scale_factors), testing::solved_u);
   }
 }
 
@@ -374,7 +367,7 @@ BOOST_AUTO_TEST_CASE(all_bounds_active)
     BOOST_REQUIRE(expected);
     const Metric metric = solved(t, conditions);
     BOOST_CHECK_EQUAL(metric.active_bounds.size(), 12u);
-    BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, expected.log_scale_factors), 1e-12);
+    BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, expected.log_scale_factors), testing::solved_u);
   }
 }
 
@@ -407,7 +400,7 @@ BOOST_AUTO_TEST_CASE(tight_bounds)
         if(!t.is_border_vertex(v) && v % 2)
           conditions.prescribe_angle_sum_above(v, Angle::pi_times(2), unbounded.log_scale_factors[v] + off);
       const Metric metric = solved(t, conditions);
-      BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, unbounded.log_scale_factors), 3e-12 + 2 * (std::max)(0., off));
+      BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, unbounded.log_scale_factors), 3 * testing::solved_u + 2 * (std::max)(0., off));
     }
 }
 
@@ -419,32 +412,27 @@ BOOST_AUTO_TEST_CASE(angles_that_add_up_leave_bounds_the_scale)
       const Triangulation t = rough_torus(seed);
       Conditions conditions(t);
       const Metric unbounded = CE::compute_conformal_metric(t, conditions, params::retriangulation(mode));
+      BOOST_REQUIRE(unbounded);
       testing::Random random(seed);
       double rise = -infinity;
       for(const Index v : choose(7, t.number_of_vertices(), random, [](Index) { return true; }))
       {
         const double bound = random(-3, 3);
         conditions.prescribe_angle_sum_above(v, Angle::pi_times(2), bound);
-        if(unbounded)
-          rise = (std::max)(rise, bound - unbounded.log_scale_factors[v]);
-      }
-      if(!unbounded)
-      {
-        BOOST_CHECK(CE::compute_conformal_metric(t, conditions, params::retriangulation(mode)).status == unbounded.status);
-        continue;
+        rise = (std::max)(rise, bound - unbounded.log_scale_factors[v]);
       }
       const Metric metric = solved(t, conditions, mode);
       BOOST_CHECK_EQUAL(metric.active_bounds.size(), 1u);
       for(Index v = 0; v < t.number_of_vertices(); ++v)
-        BOOST_CHECK_SMALL(metric.log_scale_factors[v] - unbounded.log_scale_factors[v] - rise, 1e-12);
+        BOOST_CHECK_SMALL(metric.log_scale_factors[v] - unbounded.log_scale_factors[v] - rise, testing::solved_u);
 
       // the same with angles written with few digits
       const Index v = metric.active_bounds[0];
       conditions.prescribe_angle_sum_above(v, 2 * pi + 1e-11, conditions.lower_bound(v));
       const Metric rounded = CE::compute_conformal_metric(t, conditions, params::retriangulation(mode));
       BOOST_CHECK(rounded);
-      BOOST_CHECK_CLOSE_FRACTION(rounded.statistics.angle_defect_spread, 1e-11, 1e-3);
-      BOOST_CHECK_SMALL(largest_difference(rounded.log_scale_factors, metric.log_scale_factors), 1e-9);
+      BOOST_CHECK_CLOSE_FRACTION(rounded.statistics.angle_defect_spread, 1e-11, 1e-3); // 2 pi is rounded by 1e-3 of that
+      BOOST_CHECK_SMALL(largest_difference(rounded.log_scale_factors, metric.log_scale_factors), 10 * 1e-11); // the least eigenvalue is above 1/10
     }
 }
 
@@ -472,7 +460,7 @@ BOOST_AUTO_TEST_CASE(components_of_all_kinds)
   double sum = 0;
   for(const Index v : vertices[3])
     sum += metric.log_scale_factors[v];
-  BOOST_CHECK_SMALL(sum, 1e-12);
+  BOOST_CHECK_SMALL(sum, testing::solved_u);
   BOOST_CHECK_EQUAL(metric.log_scale_factors[vertices[2][3]], -5.);
 }
 
@@ -516,7 +504,7 @@ BOOST_AUTO_TEST_CASE(too_little_angle)
     conditions.prescribe_angle_sum_above(3, Angle::pi_times(3, 2), 0.);
     const Metric falling = CE::compute_conformal_metric(torus, conditions, params::retriangulation(mode));
     BOOST_CHECK(falling.status == Status::GAUSS_BONNET_VIOLATED);
-    BOOST_CHECK_CLOSE_FRACTION(falling.amount, pi / 2, 1e-14);
+    BOOST_CHECK_CLOSE_FRACTION(falling.amount, pi / 2, testing::few_roundings * torus.number_of_vertices()); // a sum over all vertices
     BOOST_CHECK(falling.vertices == std::vector<Index>{3});
     conditions.prescribe_angle_sum_above(3, 2 * pi - 1e-8, 0.);
     BOOST_CHECK(CE::compute_conformal_metric(torus, conditions, params::retriangulation(mode)).status == Status::GAUSS_BONNET_VIOLATED);
@@ -544,7 +532,6 @@ BOOST_AUTO_TEST_CASE(too_little_angle)
 
 BOOST_AUTO_TEST_CASE(when_needed_is_never_where_nothing_is_needed)
 {
-  int same = 0;
   for(unsigned seed = 1; seed <= 10; ++seed)
   {
     const Triangulation t = rough_sphere(seed, 1, .06);
@@ -554,14 +541,10 @@ BOOST_AUTO_TEST_CASE(when_needed_is_never_where_nothing_is_needed)
       conditions.prescribe_angle_sum_above(v, Angle::pi_times(2), random(-.5, .5));
     const Metric fixed = CE::compute_conformal_metric(t, conditions, params::retriangulation(Retriangulation::NEVER));
     const Metric metric = solved(t, conditions, Retriangulation::WHEN_NEEDED);
-    if(!fixed)
-      continue;
-    ++same;
     check_solution(t, conditions, fixed);
     BOOST_CHECK(fixed.log_scale_factors == metric.log_scale_factors);
     BOOST_CHECK(fixed.active_bounds == metric.active_bounds);
   }
-  BOOST_TEST_MESSAGE(same << " of 10 without flips");
 }
 
 BOOST_AUTO_TEST_CASE(borders_on_the_double)
@@ -602,10 +585,10 @@ BOOST_AUTO_TEST_CASE(strategies_and_warm_starts)
       const Metric fresh = solved(t, conditions);
       const Metric warm = solver.solve(conditions);
       check_solution(t, conditions, warm);
-      BOOST_CHECK_SMALL(largest_difference(fresh.log_scale_factors, warm.log_scale_factors), 1e-11);
+      BOOST_CHECK_SMALL(largest_difference(fresh.log_scale_factors, warm.log_scale_factors), 2 * testing::solved_u);
       const Metric trusting = CE::compute_conformal_metric(t, conditions, params::newton_strategy(CE::Newton_strategy::TRUST_REGION));
       check_solution(t, conditions, trusting);
-      BOOST_CHECK_SMALL(largest_difference(fresh.log_scale_factors, trusting.log_scale_factors), 1e-11);
+      BOOST_CHECK_SMALL(largest_difference(fresh.log_scale_factors, trusting.log_scale_factors), 2 * testing::solved_u);
     }
   }
 }
@@ -624,7 +607,7 @@ BOOST_AUTO_TEST_CASE(lengths_of_any_size)
     for(Index e = 0; e < t.number_of_edges(); ++e)
       scaled.set_length(e, t.length(e) * size);
     const Metric metric = solved(scaled, conditions);
-    BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, expected.log_scale_factors), 1e-12);
+    BOOST_CHECK_SMALL(largest_difference(metric.log_scale_factors, expected.log_scale_factors), testing::solved_u);
     BOOST_CHECK(metric.active_bounds == expected.active_bounds);
   }
 }
@@ -648,8 +631,8 @@ BOOST_AUTO_TEST_CASE(many_digits)
   BOOST_CHECK(metric.active_bounds == rounded.active_bounds);
   BOOST_CHECK(!metric.active_bounds.empty());
   const Violation<Real> violation(t, wide_conditions, metric, metric.active_bounds);
-  BOOST_CHECK_LE(violation.angle, 1e-13);
-  BOOST_CHECK_LE(violation.u, 1e-45);
+  BOOST_CHECK_LE(violation.angle, 1e-13); // as asked for
+  BOOST_CHECK_LE(violation.u, testing::wide_rounding);
 }
 
 BOOST_AUTO_TEST_CASE(many_bounds)

@@ -6,7 +6,7 @@
 
 #define BOOST_TEST_MODULE test_certify
 #include "include/boost_test.h"
-#include "include/test_meshes.h"
+#include "include/index_level.h"
 
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/certify.h>
@@ -29,12 +29,8 @@ using CE::Status;
 
 namespace {
 
-typedef CE::Intrinsic_triangulation<double>  Triangulation;
-typedef CE::Conformal_conditions<double>     Conditions;
-typedef CE::Conformal_metric<double>         Metric;
-typedef CE::Exact_angle<double>              Angle;
-typedef CE::Layout_certificate               Certificate;
-typedef std::vector<Index>                   Indices;
+typedef CE::Layout_certificate  Certificate;
+typedef std::vector<Index>      Indices;
 
 // certify.h promises the angles around cones and on the cut up to this.
 constexpr double promised_angle_error = 1e-10;

@@ -7,7 +7,6 @@
 #include "include/boost_test.h"
 #include "include/flattened_meshes.h"
 #include "include/flipped_metrics.h"
-#include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
 #include <CGAL/Conformal_equivalence/compute_common_refinement.h>
@@ -45,7 +44,6 @@ using CE::Status;
 namespace {
 
 typedef CE::Common_refinement<double>     Refinement;
-typedef CE::Exact_angle<double>           Angle;
 typedef long double                       Real;
 typedef std::array<Real, 3>               Vector;
 typedef std::array<Vector, 3>             Matrix; // of columns
@@ -135,11 +133,12 @@ void check_queries(const Triangulation& t, const Refinement& r, unsigned seed)
     // back: among the points found, unless rounding has moved the point out of a face on the border
     const auto found = locate.surface_points(there.uv);
     const auto same = std::find_if(found.begin(), found.end(), [&](const auto& p) { return p.face == there.face; });
-    if(same == found.end())
+    if(same == found.end() && *std::min_element(b.begin(), b.end()) < 1e-10)
       continue;
+    BOOST_TEST_REQUIRE((same != found.end()));
     BOOST_TEST(same->input_face == f);
     const auto again = locate.layout_point(f, same->barycentric);
-    BOOST_TEST(std::abs(complex(again.uv) - complex(there.uv)) <= 1e-12 * size);
+    BOOST_TEST(std::abs(complex(again.uv) - complex(there.uv)) <= rounded_layout * size);
   }
   for(Index f = 0; f < r.number_of_faces(); f += 5) // corners are where they are
     if(!std::binary_search(r.rounded_faces.begin(), r.rounded_faces.end(), f))
@@ -170,7 +169,7 @@ void check_combinatorics(const Triangulation& t, const Refinement& r)
     {
       b.push_back(barycentric(t, r, f, c));
       for(std::size_t k = 0; k < 3; ++k)
-        BOOST_TEST(std::abs(b.back()[k] - Real(CE::input_barycentric(t, r, f, c)[k])) <= 1e-16L);
+        BOOST_TEST(std::abs(b.back()[k] - Real(CE::input_barycentric(t, r, f, c)[k])) <= unit_roundoff);
       used += is_used[r.corner_vertex[c]]++ == 0;
       const Index h = r.corner_halfedge[c];
       ++sides;
@@ -182,12 +181,12 @@ void check_combinatorics(const Triangulation& t, const Refinement& r)
     for(std::size_t i = 1; i + 1 < n; ++i)
     {
       const Real part = determinant({{b[0], b[i], b[i + 1]}});
-      BOOST_TEST(part >= -1e-14L);
+      BOOST_TEST(part >= -few_roundings);
       area[r.input_face[f]] += part;
     }
   }
   for(Real a : area)
-    BOOST_TEST(std::abs(a - 1) <= 1e-13L);
+    BOOST_TEST(std::abs(a - 1) <= 100 * few_roundings); // of up to a hundred parts
   for(std::size_t c = 0; c < r.crossings.size(); ++c) // four faces around a crossing, or two
     BOOST_TEST(is_used[r.number_of_input_vertices + c] == (t.is_border_edge(r.crossings[c].input_edge) ? 2 : 4));
   std::size_t isolated = 0;
@@ -370,7 +369,7 @@ Figures check_refinement(const Triangulation& t, const Metric& metric, const CE:
   figures.crossings = r.crossings.size();
   figures.rounded = r.rounded_faces.size();
   figures.angle_error = CE::angle_sum_error(t, r, conditions);
-  BOOST_TEST(figures.angle_error <= 1e-10);
+  BOOST_TEST(figures.angle_error <= 10 * layout_angle); // edges are cut to pieces
   if(!metric.is_retriangulated())
     BOOST_TEST(r.crossings.empty());
 
@@ -392,7 +391,7 @@ Figures check_refinement(const Triangulation& t, const Metric& metric, const CE:
     const std::complex<Real> a(std::complex<Real>(q) - std::complex<Real>(p)), b(std::complex<Real>(s) - std::complex<Real>(p));
     const Real area = a.real() * b.imag() - a.imag() * b.real(); // exact but for the last digits of long double
     if(!is_rounded[f])
-      BOOST_TEST(area > -1e-18L * std::abs(a) * std::abs(b));
+      BOOST_TEST(area > -std::ldexp(Real(16), -64) * std::abs(a) * std::abs(b)); // some roundings of long double
   }
   check_places(t, r, fine);
   return figures;
@@ -402,7 +401,8 @@ Figures check_refinement(const Triangulation& t, const Metric& metric, const CE:
 Figures refine(const Triangulation& t, const Conditions& conditions, const std::vector<Index>& cones, Retriangulation mode)
 {
   const Metric metric = CE::compute_conformal_metric(t, conditions, params::retriangulation(mode));
-  BOOST_TEST_REQUIRE(bool(metric), CE::message(metric.status) << ", residual " << metric.statistics.residual << ", " << metric.flips.size() << " flips");
+  BOOST_TEST_REQUIRE(bool(metric), CE::message(metric.status) << ", residual " << metric.statistics.residual << ", " << metric.flips.size()
+                                                               << " flips");
   const CE::Cut_graph cut = CE::compute_cut_graph(t, cones);
   BOOST_TEST_REQUIRE(bool(cut));
   const Refinement r = CE::compute_common_refinement(t, metric, cut);
@@ -529,15 +529,15 @@ BOOST_AUTO_TEST_CASE(chords_of_a_circle)
           expected = p.place[i] + s * a;
           const double ratio = s / (1 - s) * p.height[i] / p.height[j], flat_ratio = along / (1 - along) * p.height[k] / p.height[l];
           const double flatness = 1 / std::abs(cross(a, b));
-          BOOST_TEST(std::abs(x.input_parameter - ratio / (1 + ratio)) <= 1e-14 * flatness);
-          BOOST_TEST(std::abs(x.flat_parameter - flat_ratio / (1 + flat_ratio)) <= 1e-14 * flatness);
+          BOOST_TEST(std::abs(x.input_parameter - ratio / (1 + ratio)) <= 10 * few_roundings * flatness);
+          BOOST_TEST(std::abs(x.flat_parameter - flat_ratio / (1 + flat_ratio)) <= 10 * few_roundings * flatness);
           // a v_i + b v_j = (1 - s) * (..) in homogeneous coordinates: the weight of a point of the plane is 1 / its last coordinate
           const double third = (1 - x.input_parameter) * p.height[i] + x.input_parameter * p.height[j];
           const double most = *std::max_element(p.height.begin(), p.height.end());
-          BOOST_TEST(std::abs(r.weights[v] - third / most) <= 1e-13);
+          BOOST_TEST(std::abs(r.weights[v] - third / most) <= rounded_layout);
         }
         largest = (std::max)(largest, std::abs(complex(r.corner_uv[c]) - expected));
-        BOOST_TEST(std::abs(complex(r.corner_uv[c]) - expected) <= 1e-11);
+        BOOST_TEST(std::abs(complex(r.corner_uv[c]) - expected) <= 100 * rounded_layout); // where edges cross each other at small angles
       }
     }
   BOOST_TEST(crossings > 1000u);
@@ -587,7 +587,7 @@ BOOST_AUTO_TEST_CASE(small_and_large_lengths)
         BOOST_TEST(std::abs(r.weights[14 + c] - refinements[0].weights[14 + c]) <= few_roundings);
       }
       for(std::size_t c = 0; c < r.corner_uv.size(); ++c)
-        BOOST_TEST(std::abs(std::ldexp(1., -exponent) * complex(r.corner_uv[c]) - complex(refinements[0].corner_uv[c])) <= 1e-12);
+        BOOST_TEST(std::abs(std::ldexp(1., -exponent) * complex(r.corner_uv[c]) - complex(refinements[0].corner_uv[c])) <= rounded_layout);
     }
   }
 }
@@ -633,9 +633,9 @@ BOOST_AUTO_TEST_CASE(more_digits)
   BOOST_TEST(fine.corner_vertex == coarse.corner_vertex);
   for(std::size_t c = 0; c < fine.corner_uv.size(); ++c)
     for(int k = 0; k < 2; ++k)
-      BOOST_TEST(std::abs(double(fine.corner_uv[c][k]) - coarse.corner_uv[c][k]) <= 1e-14);
+      BOOST_TEST(std::abs(double(fine.corner_uv[c][k]) - coarse.corner_uv[c][k]) <= rounded_layout);
   for(std::size_t c = 0; c < fine.crossings.size(); ++c)
-    BOOST_TEST(std::abs(double(fine.crossings[c].input_parameter) / coarse.crossings[c].input_parameter - 1) <= 1e-14);
+    BOOST_TEST(std::abs(double(fine.crossings[c].input_parameter) / coarse.crossings[c].input_parameter - 1) <= 10 * few_roundings);
   BOOST_TEST(CE::triangulate_refinement(fine).is_positive());
 }
 
@@ -914,7 +914,8 @@ namespace {
 
 // A mesh refined: positions on the surface, texture coordinates, origins.
 template <typename RefinedMesh>
-void check_mesh(const Mesh& sm, const CE::Imported_mesh<Mesh>& mesh, const CE::Cut_graph& cut, const Refinement& r, RefinedMesh& out, const char* name)
+void check_mesh(const Mesh& sm, const CE::Imported_mesh<Mesh>& mesh, const CE::Cut_graph& cut, const Refinement& r, RefinedMesh& out,
+                const char* name)
 {
   typedef typename boost::graph_traits<RefinedMesh>::halfedge_descriptor halfedge_descriptor;
   std::map<halfedge_descriptor, Point_2> uv;
@@ -948,7 +949,7 @@ void check_mesh(const Mesh& sm, const CE::Imported_mesh<Mesh>& mesh, const CE::C
     const Point_3 &p = sm.point(source(halfedge(e, sm), sm)), &q = sm.point(target(halfedge(e, sm), sm)),
                   &x = get(get(CGAL::vertex_point, out), made.vertices[r.number_of_input_vertices + c]);
     BOOST_TEST(std::sqrt(CGAL::squared_distance(p, x)) + std::sqrt(CGAL::squared_distance(x, q))
-               <= std::sqrt(CGAL::squared_distance(p, q)) * (1 + 1e-12) + 1e-15 * std::sqrt((p - CGAL::ORIGIN).squared_length()));
+               <= std::sqrt(CGAL::squared_distance(p, q)) * (1 + few_roundings) + few_roundings * std::sqrt((p - CGAL::ORIGIN).squared_length()));
   }
   for(Index f = 0; f < r.number_of_faces(); ++f) // the seam is made of cut edges
     for(std::size_t c = r.first_corner[f]; c < r.first_corner[f + 1]; ++c)
@@ -1015,7 +1016,8 @@ BOOST_AUTO_TEST_CASE(disks_that_need_flips, * needs_mesh("cylinder_locally_refin
         check_mesh(sm, mesh, cut, CE::triangulate_refinement(r), triangles, name);
         BOOST_TEST(CGAL::is_triangle_mesh(triangles));
         const double area = CGAL::Polygon_mesh_processing::area(sm);
-        BOOST_TEST(std::abs(CGAL::Polygon_mesh_processing::area(triangles) - area) <= 1e-10 * area);
+        // as if all parts were as large
+        BOOST_TEST(std::abs(CGAL::Polygon_mesh_processing::area(triangles) - area) <= 10 * few_roundings * double(num_faces(triangles)) * area);
         if(t.number_of_faces() < 20000)
         {
           CGAL::Polyhedron_3<Kernel> polyhedron;

@@ -7,6 +7,7 @@
 #include "include/boost_test.h"
 #include "include/flipped_metrics.h"
 #include "include/test_meshes.h"
+#include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
@@ -24,11 +25,14 @@
 namespace CE = CGAL::Conformal_equivalence;
 namespace params = CGAL::parameters;
 using testing::complex;
+using testing::few_roundings;
 using testing::Complex;
 using testing::Conditions;
 using testing::Index;
 using testing::Metric;
 using testing::pi;
+using testing::rounded_layout;
+using testing::solved_u;
 using testing::Triangulation;
 using CE::Status;
 
@@ -65,7 +69,7 @@ void check_transitions(const Triangulation& t, const CE::Cut_graph& cut, const L
     has_motion[t.edge(h)] = 1;
     BOOST_TEST(h < g);
     const Complex r = complex(motion.rotation), s = complex(motion.translation);
-    BOOST_TEST(std::abs(std::abs(r) - 1) <= 4e-16);
+    BOOST_TEST(std::abs(std::abs(r) - 1) <= few_roundings);
     BOOST_TEST(std::abs(r * complex(layout.corner[h]) + s - complex(layout.corner[t.previous(g)])) <= tolerance);
     BOOST_TEST(std::abs(r * complex(layout.corner[t.previous(h)]) + s - complex(layout.corner[g])) <= tolerance);
   }
@@ -128,14 +132,14 @@ BOOST_AUTO_TEST_CASE(annulus_cut_open)
   }
   const Layout layout = CE::compute_layout(t, metric, cut);
   BOOST_TEST((layout.status == Status::OK));
-  BOOST_TEST(layout.length_error <= 1e-14);
+  BOOST_TEST(layout.length_error <= rounded_layout);
   BOOST_TEST(layout.transitions.size() == m);
   BOOST_TEST(layout.lattices.empty());
   check_transitions(t, cut, layout);
   for(const auto& motion : layout.transitions) // one motion for the whole cut
   {
-    BOOST_TEST(std::abs(complex(motion.rotation) - complex(layout.transitions[0].rotation)) <= 1e-14);
-    BOOST_TEST(std::abs(complex(motion.translation) - complex(layout.transitions[0].translation)) <= 1e-13);
+    BOOST_TEST(std::abs(complex(motion.rotation) - complex(layout.transitions[0].rotation)) <= rounded_layout);
+    BOOST_TEST(std::abs(complex(motion.translation) - complex(layout.transitions[0].translation)) <= rounded_layout);
   }
   // an annulus that is not cut does not close
   BOOST_TEST(CE::compute_layout(t, metric, CE::Cut_graph()).length_error > 1e-3);
@@ -153,13 +157,13 @@ BOOST_AUTO_TEST_CASE(frustum_of_a_pyramid)
   }));
   const Metric metric = solved(t, Conditions(t));
   for(double u : metric.log_scale_factors)
-    BOOST_TEST(std::abs(u) <= 1e-14);
+    BOOST_TEST(std::abs(u) <= testing::unmoved_u);
   const CE::Cut_graph cut = CE::compute_cut_graph(t, {});
   const Layout layout = CE::compute_layout(t, metric, cut);
   check_transitions(t, cut, layout);
   const double at_apex = 2 * std::asin(std::sin(pi / n) / std::hypot(1, height));
   for(const auto& motion : layout.transitions)
-    BOOST_TEST(std::abs(motion.rotation[0] - std::cos(n * at_apex)) <= 1e-14);
+    BOOST_TEST(std::abs(motion.rotation[0] - std::cos(n * at_apex)) <= rounded_layout);
 }
 
 // Around cones of angle pi everything turns by multiples of pi, around such of 3 pi / 2 by multiples of pi / 2.
@@ -180,13 +184,13 @@ BOOST_AUTO_TEST_CASE(rotations_are_those_of_the_cones)
     const Metric metric = solved(t, conditions);
     const CE::Cut_graph cut = CE::compute_cut_graph(t, cones);
     const Layout layout = CE::compute_layout(t, metric, cut);
-    BOOST_TEST(layout.length_error <= 1e-13);
+    BOOST_TEST(layout.length_error <= rounded_layout);
     check_transitions(t, cut, layout);
     bool turns = false;
     for(const auto& motion : layout.transitions)
     {
       const Complex power = std::pow(complex(motion.rotation), double(n) / 2); // cones of curvature 4 pi / n
-      BOOST_TEST(std::abs(power - Complex(1)) <= 1e-13);
+      BOOST_TEST(std::abs(power - Complex(1)) <= rounded_layout);
       turns = turns || std::abs(complex(motion.rotation) - Complex(1)) > .1;
     }
     BOOST_TEST(turns);
@@ -201,7 +205,7 @@ BOOST_AUTO_TEST_CASE(motions_between_pieces)
   const CE::Cut_graph cut = cut_everywhere(t);
   const Layout layout = CE::compute_layout(t, metric, cut);
   BOOST_TEST((layout.status == Status::OK));
-  BOOST_TEST(layout.length_error <= 1e-13);
+  BOOST_TEST(layout.length_error <= rounded_layout);
   check_transitions(t, cut, layout);
 }
 
@@ -219,7 +223,7 @@ BOOST_AUTO_TEST_CASE(lattices_of_flat_tori)
     const Metric metric = solved(t, Conditions(t));
     // u is found, up to a constant
     for(Index v = 0; v < t.number_of_vertices(); ++v)
-      BOOST_TEST(std::abs(metric.log_scale_factors[v] + u[v] - metric.log_scale_factors[0] - u[0]) <= 1e-12);
+      BOOST_TEST(std::abs(metric.log_scale_factors[v] + u[v] - metric.log_scale_factors[0] - u[0]) <= solved_u);
 
     std::vector<CE::Cut_graph> cuts = { CE::compute_cut_graph(t, {}), CE::compute_cut_graph(t, {5, 20}), cut_everywhere(t) };
     CE::Cut_graph ring = cuts[0]; // and one around the torus
@@ -233,13 +237,14 @@ BOOST_AUTO_TEST_CASE(lattices_of_flat_tori)
       check_transitions(t, cut, layout);
       BOOST_TEST_REQUIRE(layout.lattices.size() == 1u);
       const Complex found = complex(layout.lattices[0].tau);
-      BOOST_TEST(std::abs(found.real()) <= .5 + 1e-10);
-      BOOST_TEST(std::abs(found) >= 1 - 1e-10);
-      BOOST_TEST(are_equivalent(found, tau, 1e-12 * std::abs(tau)), found << " instead of " << tau);
-      if(std::abs(std::abs(tau.real()) - .5) <= 1e-9 || std::abs(std::abs(tau) - 1) <= 1e-9)
-        BOOST_TEST(found.real() >= -1e-9); // on the boundary: the right side
+      const double error = solved_u * std::abs(tau);
+      BOOST_TEST(std::abs(found.real()) <= .5 + error);
+      BOOST_TEST(std::abs(found) >= 1 - error);
+      BOOST_TEST(are_equivalent(found, tau, error), found << " instead of " << tau);
+      if(std::abs(std::abs(tau.real()) - .5) <= error || std::abs(std::abs(tau) - 1) <= error)
+        BOOST_TEST(found.real() >= -error); // on the boundary: the right side
       const Complex a = complex(layout.lattices[0].periods[0]), b = complex(layout.lattices[0].periods[1]);
-      BOOST_TEST(std::abs(b / a - found) <= 1e-13 * std::abs(found));
+      BOOST_TEST(std::abs(b / a - found) <= rounded_layout * std::abs(found));
       // the area of the torus is that of the layout
       double area = 0;
       for(Index h = 0; h < t.number_of_halfedges(); h += 3)
@@ -247,7 +252,7 @@ BOOST_AUTO_TEST_CASE(lattices_of_flat_tori)
         const Complex p = complex(layout.corner[h]), q = complex(layout.corner[h + 1]), r = complex(layout.corner[h + 2]);
         area += std::imag(std::conj(q - p) * (r - p)) / 2;
       }
-      BOOST_TEST(std::abs(std::imag(std::conj(a) * b) / area - 1) <= 1e-12);
+      BOOST_TEST(std::abs(std::imag(std::conj(a) * b) / area - 1) <= 2 * rounded_layout);
     }
   }
 }
@@ -266,9 +271,9 @@ BOOST_AUTO_TEST_CASE(translations_belong_to_the_lattice)
     const Complex z = complex(motion.translation);
     const double area = std::imag(std::conj(a) * b);
     const double x = std::imag(std::conj(z) * b) / area, y = std::imag(std::conj(a) * z) / area;
-    BOOST_TEST(std::abs(motion.rotation[0] - 1) <= 1e-13);
-    BOOST_TEST(std::abs(x - std::round(x)) <= 1e-12);
-    BOOST_TEST(std::abs(y - std::round(y)) <= 1e-12);
+    BOOST_TEST(std::abs(motion.rotation[0] - 1) <= rounded_layout);
+    BOOST_TEST(std::abs(x - std::round(x)) <= 2 * rounded_layout);
+    BOOST_TEST(std::abs(y - std::round(y)) <= 2 * rounded_layout);
   }
 }
 
@@ -287,8 +292,7 @@ BOOST_AUTO_TEST_CASE(torus_with_one_vertex)
     const Layout layout = CE::compute_layout(t, metric, cut);
     BOOST_TEST_REQUIRE(layout.lattices.size() == 1u);
     const Complex found = complex(layout.lattices[0].tau), tau = in_fundamental_domain(b / a);
-    // the gluing tells the torus only up to orientation
-    BOOST_TEST((are_equivalent(found, tau, 1e-11) || are_equivalent(found, -std::conj(tau), 1e-11)), found << " instead of " << tau);
+    BOOST_TEST(are_equivalent(found, tau, 2 * solved_u * std::abs(tau)), found << " instead of " << tau);
   }
 }
 
@@ -335,17 +339,20 @@ BOOST_AUTO_TEST_CASE(reduced_basis)
   std::mt19937 random(11);
   std::uniform_int_distribution<int> integer(-9, 9);
   std::uniform_real_distribution<double> uniform(-1, 1);
+  const double noise = 1e-13, zero = 1e-9; // relative to the lattice: what it is far from being, and what is taken for nothing else
   int complete = 0;
   for(int i = 0; i < 300; ++i)
   {
-    const Complex a = std::polar(std::exp(3 * uniform(random)), 4 * uniform(random)), b = a * Complex(uniform(random) / 2, 1 + std::abs(uniform(random)));
-    CE::internal::Reduced_basis<double> basis(1e-9 * std::abs(a));
+    const Complex a = std::polar(std::exp(3 * uniform(random)), 4 * uniform(random));
+    const Complex b = a * Complex(uniform(random) / 2, 1 + std::abs(uniform(random)));
+    CE::internal::Reduced_basis<double> basis(zero * std::abs(a));
     int divisor = 0; // of the determinants of all pairs: 1 iff they generate the lattice
     std::vector<std::array<int, 2> > vectors;
     for(int k = 0; k < 5; ++k)
     {
       vectors.push_back({{integer(random), integer(random)}});
-      const Complex z = double(vectors[k][0]) * a + double(vectors[k][1]) * b + 1e-13 * std::abs(a) * Complex(uniform(random), uniform(random));
+      const Complex error = noise * std::abs(a) * Complex(uniform(random), uniform(random));
+      const Complex z = double(vectors[k][0]) * a + double(vectors[k][1]) * b + error;
       basis.insert(Number{z.real(), z.imag()});
       for(int l = 0; l < k; ++l)
       {
@@ -361,9 +368,9 @@ BOOST_AUTO_TEST_CASE(reduced_basis)
     ++complete;
     const auto found = basis.standard_basis();
     const Complex p(found.first.re, found.first.im), q(found.second.re, found.second.im);
-    BOOST_TEST(std::abs(std::imag(std::conj(p) * q) / std::imag(std::conj(a) * b) - divisor) <= 1e-9);
+    BOOST_TEST(std::abs(std::imag(std::conj(p) * q) / std::imag(std::conj(a) * b) - divisor) <= zero);
     if(divisor == 1)
-      BOOST_TEST(are_equivalent(q / p, in_fundamental_domain(b / a), 1e-9), q / p << " instead of " << b / a);
+      BOOST_TEST(are_equivalent(q / p, in_fundamental_domain(b / a), zero), q / p << " instead of " << b / a);
   }
   BOOST_TEST(complete > 250);
 }
@@ -415,7 +422,7 @@ BOOST_AUTO_TEST_CASE(pieces_do_not_overlap)
   for(CE::Layout_frame frame : { CE::Layout_frame::CANONICAL, CE::Layout_frame::UNIT_SQUARE })
   {
     const Layout layout = CE::compute_layout(t, metric, CE::Cut_graph(), params::layout_frame(frame));
-    BOOST_TEST(layout.length_error <= 1e-12);
+    BOOST_TEST(layout.length_error <= 10 * rounded_layout); // relative to the smallest of the components
     const std::vector<Box> boxes = boxes_of_components(t, layout);
     double area = 0, high[2] = { 0, 0 };
     for(std::size_t i = 0; i < boxes.size(); ++i)
@@ -425,7 +432,7 @@ BOOST_AUTO_TEST_CASE(pieces_do_not_overlap)
       area += (boxes[i].high[0] - boxes[i].low[0]) * (boxes[i].high[1] - boxes[i].low[1]);
       for(int k = 0; k < 2; ++k)
       {
-        BOOST_TEST(boxes[i].low[k] >= -1e-14 * boxes[i].high[k]);
+        BOOST_TEST(boxes[i].low[k] >= -few_roundings * boxes[i].high[k]);
         high[k] = (std::max)(high[k], boxes[i].high[k]);
       }
     }
@@ -450,7 +457,7 @@ BOOST_AUTO_TEST_CASE(pieces_of_all_sizes)
   const Triangulation t = testing::triangulation(testing::together(soups));
   const Metric metric = solved(t, Conditions(t));
   const Layout layout = CE::compute_layout(t, metric, CE::Cut_graph());
-  BOOST_TEST(layout.length_error <= 1e-13);
+  BOOST_TEST(layout.length_error <= rounded_layout);
   const std::vector<Box> boxes = boxes_of_components(t, layout);
   for(std::size_t i = 0; i < boxes.size(); ++i)
     for(std::size_t j = 0; j < i; ++j)
@@ -467,7 +474,7 @@ BOOST_AUTO_TEST_CASE(pieces_are_turned_as_if_alone)
   const Index first = Index(3 * left.triangles.size());
   const Complex offset = complex(layout.corner[first]) - complex(expected.corner[0]);
   for(Index h = 0; h < alone.number_of_halfedges(); ++h)
-    BOOST_TEST(std::abs(complex(layout.corner[first + h]) - complex(expected.corner[h]) - offset) <= 1e-13);
+    BOOST_TEST(std::abs(complex(layout.corner[first + h]) - complex(expected.corner[h]) - offset) <= rounded_layout);
 }
 
 BOOST_AUTO_TEST_CASE(nothing_to_lay_out)

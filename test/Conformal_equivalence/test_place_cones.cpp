@@ -7,7 +7,7 @@
 #include "include/boost_test.h"
 
 #include "include/flattened_meshes.h"
-#include "include/test_meshes.h"
+#include "include/index_level.h"
 
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/place_cones.h>
@@ -28,37 +28,13 @@ using namespace testing;
 
 namespace {
 
-typedef CE::Intrinsic_triangulation<double>                             Triangulation;
-typedef CE::internal::Cone_search<double>                            Search;
-typedef CE::internal::Placement                                         Placement;
+typedef CE::internal::Cone_search<double>  Search;
+typedef CE::internal::Placement            Placement;
 
 // A disk with three bumps, one of them larger.
-Soup bumps(Index n)
-{
-  return symmetric_grid(n, [](double x, double y)
-  {
-    const auto bump = [&](double a, double b, double h, double w) { return h * std::exp(-((x - a) * (x - a) + (y - b) * (y - b)) / (w * w)); };
-    return bump(0.3, 0.3, 0.3, 0.13) + bump(0.7, 0.35, 0.22, 0.13) + bump(0.5, 0.75, 0.25, 0.15);
-  });
-}
+Soup bumps(Index n) { return disk_with_bumps(n, {{{0.3, 0.3, 0.3, 0.13}}, {{0.7, 0.35, 0.22, 0.13}}, {{0.5, 0.75, 0.25, 0.15}}}); }
 
-// A sphere with arms.
-Soup arms(int levels)
-{
-  Soup soup = icosphere(levels);
-  for(Point& p : soup.points)
-  {
-    double r = 1;
-    for(const Point& d : {Point{{1, 0, 0}}, Point{{-0.5, 0.8, 0.1}}, Point{{-0.4, -0.6, 0.7}}, Point{{0, -0.2, -1}}})
-    {
-      const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), c = (p[0] * d[0] + p[1] * d[1] + p[2] * d[2]) / length;
-      r += 0.8 * std::exp(7 * (c - 1));
-    }
-    for(double& x : p)
-      x *= r;
-  }
-  return soup;
-}
+Soup arms(int levels) { return testing::arms(levels, 0); }
 
 CE::Surface_components::Component only_component(const Triangulation& t) { return CE::connected_components(t).components[0]; }
 
@@ -122,7 +98,7 @@ BOOST_AUTO_TEST_CASE(the_largest_error_of_rounding_is_as_small_as_can_be)
       error = (std::max)(error, std::abs(x[i] - double(k[i])));
       n_unlike_nearest += k[i] != (std::max)(1l, std::lround(x[i])) ? 1 : 0;
     }
-    n_failed += std::abs(error - least_error(x, sum)) > 1e-9 ? 1 : 0;
+    n_failed += std::abs(error - least_error(x, sum)) > 2e-12 ? 1 : 0; // 1e-12, up and down, is what counts as a tie
   }
   BOOST_TEST(n_failed == 0);
   BOOST_TEST(n_unlike_nearest > 1000); // it was not too easy
@@ -151,7 +127,7 @@ BOOST_AUTO_TEST_CASE(rounded_cones_are_not_free_whatever_the_quantum)
     {
       BOOST_TEST(cone.is_free == (quantum == 0));
       if(quantum > 0)
-        BOOST_TEST(std::abs(std::remainder(cone.angle, quantum)) < 1e-14);
+        BOOST_TEST(std::abs(std::remainder(cone.angle, quantum)) <= 4 * pi * unit_roundoff); // the angle, below 4 pi, is rounded
     }
   }
 }
@@ -172,6 +148,13 @@ BOOST_AUTO_TEST_CASE(a_given_solver_finds_the_same)
   }
 }
 
+// Radians: the residual at which the search is told to end.
+constexpr double search_tolerance = 1e-11;
+
+// What that leaves of u: it times the largest sum of a row of the inverse of the Laplacian, which is below 100 for the some hundred vertices of the
+// surfaces and their cones.
+constexpr double searched_u = 100 * search_tolerance;
+
 BOOST_AUTO_TEST_CASE(free_cones_have_u_zero_and_all_other_angles_are_flat)
 {
   for(const Soup& soup : {bumps(16), arms(3), torus(20, 12)})
@@ -182,9 +165,9 @@ BOOST_AUTO_TEST_CASE(free_cones_have_u_zero_and_all_other_angles_are_flat)
     Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
     for(Index i = 0; i < 4; ++i)
       Search::add(p, search.candidates()[(2 * i + 1) * search.candidates().size() / 8]);
-    BOOST_REQUIRE(search.relax(p, 60, 1e-11));
+    BOOST_REQUIRE(search.relax(p, 60, search_tolerance));
     for(Index c : p.cones)
-      BOOST_TEST(std::abs(p.u[c]) < 1e-9);
+      BOOST_TEST(std::abs(p.u[c]) <= rounded_u);
 
     // the same by the solver
     CE::Conformal_conditions<double> conditions(t);
@@ -195,8 +178,8 @@ BOOST_AUTO_TEST_CASE(free_cones_have_u_zero_and_all_other_angles_are_flat)
     double difference = 0;
     for(Index v = 0; v < t.number_of_vertices(); ++v)
       difference = (std::max)(difference, std::abs(p.u[v] - metric.log_scale_factors[v]));
-    BOOST_TEST(difference < 1e-8);
-    BOOST_TEST(std::abs(p.measure - largest(metric.log_scale_factors)) < 1e-8);
+    BOOST_TEST(difference <= searched_u);
+    BOOST_TEST(std::abs(p.measure - largest(metric.log_scale_factors)) <= searched_u);
   }
 }
 
@@ -208,14 +191,14 @@ BOOST_AUTO_TEST_CASE(prescribed_angles_are_found_by_the_search_as_by_the_solver)
   Placement p = search.without_cones(std::vector<double>(t.number_of_vertices(), 0.));
   p.cones = {search.candidates()[40], search.candidates()[111]};
   p.angles = {3 * pi / 2, 5 * pi / 2};
-  BOOST_REQUIRE(search.relax(p, 60, 1e-11));
+  BOOST_REQUIRE(search.relax(p, 60, search_tolerance));
   CE::Conformal_conditions<double> conditions(t);
   conditions.prescribe_angle_sum(p.cones[0], 3 * pi / 2);
   conditions.prescribe_angle_sum(p.cones[1], 5 * pi / 2);
   const auto metric = CE::compute_conformal_metric(t, conditions, params::retriangulation(CE::Retriangulation::NEVER));
   BOOST_REQUIRE(bool(metric));
   for(Index v = 0; v < t.number_of_vertices(); ++v)
-    BOOST_TEST(std::abs(p.u[v] - metric.log_scale_factors[v]) < 1e-8);
+    BOOST_TEST(std::abs(p.u[v] - metric.log_scale_factors[v]) <= searched_u);
 }
 
 // What is expected of a move is exact to first order: for a surface that is nearly flat, the error is of second order.
@@ -240,10 +223,10 @@ BOOST_AUTO_TEST_CASE(moves_are_foreseen_to_first_order)
       Placement moved = p;
       moved.cones[1] = search.candidates()[120];
       BOOST_REQUIRE(search.relax(moved, 60, 1e-13));
-      BOOST_TEST(std::abs(moved.measure - p.measure) > 1e-4 * p.measure);
+      BOOST_TEST(std::abs(moved.measure - p.measure) > 1e-4 * p.measure); // it is a move
       error[std::size_t(k)] = std::abs(expected - moved.measure) / moved.measure;
     }
-    BOOST_TEST(error[0] < 0.2);
+    BOOST_TEST(error[0] < 0.2); // of first order
     BOOST_TEST(error[1] < 0.4 * error[0]); // curvature is of second order in the height: a quarter, asymptotically
   }
 }
@@ -280,7 +263,7 @@ BOOST_AUTO_TEST_CASE(moves_are_foreseen_as_they_are_computed_to_first_order)
           const Placement moved = search.moved(p, move.cone, move.curvature, move.to);
           if(measure == CE::Cone_measure::MAXIMUM_U && is_free)
             for(Index c : moved.cones)
-              BOOST_TEST(std::abs(moved.u[c]) < 1e-9);
+              BOOST_TEST(std::abs(moved.u[c]) <= rounded_u);
           search.watch(moved);
           std::set<std::pair<Index, Index> > others;
           for(Index c : p.cones)
@@ -289,7 +272,7 @@ BOOST_AUTO_TEST_CASE(moves_are_foreseen_as_they_are_computed_to_first_order)
                 others.insert({c, v});
           const CE::internal::Cone_move again = search.best_move(p, 3, others);
           BOOST_REQUIRE(again.to == move.to);
-          BOOST_TEST(std::abs(again.expected - moved.measure) < 1e-9 * (1 + moved.measure));
+          BOOST_TEST(std::abs(again.expected - moved.measure) <= rounded_u * (1 + moved.measure));
           if(n_cones > 1)
             BOOST_TEST(std::abs(moved.measure - p.measure) > 1e-6 * p.measure); // it is a move
         }
@@ -333,13 +316,13 @@ BOOST_AUTO_TEST_CASE(cones_make_it_better_and_optimization_no_worse_than_the_gre
       while(greedy.cones.size() < n)
       {
         Search::add(greedy, search.worst_vertex(greedy));
-        BOOST_REQUIRE(search.relax(greedy, 20, 1e-9));
+        BOOST_REQUIRE(search.relax(greedy, 20, search_tolerance));
       }
       const auto placement = CE::place_cones(t, params::number_of_cones(n));
       BOOST_REQUIRE(bool(placement));
       BOOST_TEST(placement.cones.size() == n);
       BOOST_TEST(std::is_sorted(placement.cones.begin(), placement.cones.end()));
-      BOOST_TEST(placement.maximum_log_scale_factor <= greedy.measure + 1e-3);
+      BOOST_TEST(placement.maximum_log_scale_factor <= greedy.measure + searched_u);
       for(Index c : placement.cones)
         BOOST_TEST(std::abs(placement.metric.log_scale_factors[c]) == 0);
       for(std::size_t i = 0; i < n; ++i)
@@ -405,7 +388,8 @@ BOOST_AUTO_TEST_CASE(a_bound_on_areas_is_met_or_the_best_is_returned)
   BOOST_REQUIRE(bool(met));
   BOOST_TEST(!met.metric.is_retriangulated());
   BOOST_TEST(met.area_distortion <= 0.7 * before);
-  BOOST_TEST(std::abs(met.area_distortion - distortion(t, met.metric.log_scale_factors)) < 1e-9 * before);
+  // Heron's formula loses the digits of the ratio of the perimeter and the least of s - l, which is below 1000 here
+  BOOST_TEST(std::abs(met.area_distortion - distortion(t, met.metric.log_scale_factors)) <= 1000 * few_roundings * before);
   BOOST_TEST(met.cones.size() >= 1);
   const auto none = CE::place_cones(t, params::maximum_area_distortion(before * 1.01));
   BOOST_TEST(bool(none));
@@ -427,7 +411,9 @@ BOOST_AUTO_TEST_CASE(a_bound_on_areas_is_met_or_the_best_is_returned)
   for(Point& p : small.points)
     for(double& x : p)
       x *= std::ldexp(1., -450);
-  BOOST_TEST(std::abs(CE::place_cones(triangulation(small), params::number_of_cones(std::size_t(2))).area_distortion - missed.area_distortion) < 1e-6);
+  // areas are multiplied by e^{2u}, and compared with a mean of such areas
+  const double moved = CE::place_cones(triangulation(small), params::number_of_cones(std::size_t(2))).area_distortion - missed.area_distortion;
+  BOOST_TEST(std::abs(moved) <= 4 * solved_u * missed.area_distortion);
 }
 
 // Where edges are flipped, no triangle of the metric is one of the surface.
@@ -439,7 +425,7 @@ BOOST_AUTO_TEST_CASE(areas_of_flipped_metrics_are_judged_at_vertices)
   BOOST_REQUIRE(placement.metric.is_retriangulated());
   const auto extremes = std::minmax_element(placement.metric.log_scale_factors.begin(), placement.metric.log_scale_factors.end());
   const double range = *extremes.second - *extremes.first;
-  BOOST_TEST(std::log(placement.area_distortion) >= range * (1 - 1e-12)); // the mean is in the middle
+  BOOST_TEST(std::log(placement.area_distortion) >= range - few_roundings * (1 + range)); // the mean is in the middle
   BOOST_TEST(std::log(placement.area_distortion) <= 2 * range);           // or at one end
 }
 
@@ -451,9 +437,9 @@ BOOST_AUTO_TEST_CASE(cones_of_flat_surfaces_have_the_angle_2_pi)
   BOOST_REQUIRE(bool(placement));
   BOOST_TEST(placement.cones.size() == 3);
   for(double angle : placement.free_angles)
-    BOOST_TEST(std::abs(angle - 2 * pi) < 1e-12);
-  BOOST_TEST(placement.maximum_log_scale_factor < 1e-12);
-  BOOST_TEST(std::abs(placement.area_distortion - 1) < 1e-12);
+    BOOST_TEST(std::abs(angle - 2 * pi) <= solver_tolerance);
+  BOOST_TEST(placement.maximum_log_scale_factor <= unmoved_u);
+  BOOST_TEST(std::abs(placement.area_distortion - 1) <= 4 * unmoved_u);
   const auto rounded = CE::place_cones(t, params::number_of_cones(std::size_t(3)).angle_quantum(pi / 2));
   BOOST_REQUIRE(bool(rounded));
   BOOST_TEST(rounded.cones.empty());
@@ -500,9 +486,9 @@ BOOST_AUTO_TEST_CASE(quantized_angles_are_multiples_and_satisfy_gauss_and_bonnet
       }
       if(component.number_of_borders == 0)
         BOOST_TEST(curvature == long(component.euler_characteristic()) * n * quantum);
-      BOOST_TEST(placement.metric.statistics.residual <= 1e-12);
+      BOOST_TEST(placement.metric.statistics.residual <= solver_tolerance);
       for(std::size_t i = 0; i < placement.cones.size(); ++i)
-        BOOST_TEST(std::abs(CE::internal::angle_sum_at(placement.metric, placement.cones[i]) - placement.angles[i].radians()) < 1e-10);
+        BOOST_TEST(std::abs(CE::internal::angle_sum_at(placement.metric, placement.cones[i]) - placement.angles[i].radians()) <= layout_angle);
     }
 }
 
@@ -578,18 +564,18 @@ BOOST_AUTO_TEST_CASE(a_mesh_is_flattened_with_the_angles_written)
   for(Vertex v : report.flattened_cones)
     BOOST_TEST(angle[v] == 2 * pi);
   if(report.flattened_cones.empty())
-    BOOST_TEST(std::abs(free_curvature - 4 * pi) < 1e-4);
+    BOOST_TEST(std::abs(free_curvature - 4 * pi) <= 1e-6 * double(num_vertices(mesh))); // where residuals are 1e-6, the search ends
   double curvature = 0, most = 0;
   for(Vertex v : vertices(mesh))
   {
     curvature += 2 * pi - angle[v];
     most = (std::max)(most, std::abs(u[v]));
   }
-  BOOST_TEST(std::abs(curvature - 4 * pi) < 1e-12);
+  BOOST_TEST(std::abs(curvature - 4 * pi) <= 2 * pi * unit_roundoff * double(num_vertices(mesh))); // a sum of rounded angles
   const auto flat = CE::flatten(mesh, uv, params::cone_angle_map(angle));
   BOOST_REQUIRE_MESSAGE(bool(flat), CE::message(flat));
   BOOST_TEST(flat.cones.size() == report.cones.size());
-  BOOST_TEST(most < 5);
+  BOOST_TEST(most < 5); // arms without cones have more
 
   // bad input leaves the map alone
   std::fill(angle.begin(), angle.end(), -1);

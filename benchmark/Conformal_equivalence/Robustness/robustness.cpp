@@ -671,8 +671,9 @@ const Group& find_group(const std::string& name)
 
 // ---- Tables
 
-const Row columns = { "group", "mode", "cases", "refused", "success", "flips: median", "max", "Newton steps: median", "max", "discarded: median", "max",
-                      "seconds", "longest", "worst residual", "floor", "Delaunay: exact", "within bounds", "no", "certified", "most bits", "lost in double" };
+const Row columns = { "group", "mode", "cases", "refused", "success", "flips: median", "max", "Newton steps: median", "max",
+                      "discarded: median", "max", "seconds", "longest", "worst residual", "floor",
+                      "Delaunay: exact", "within bounds", "no", "certified", "most bits", "lost in double" };
 
 void print_row(const Row& cells)
 {
@@ -811,7 +812,8 @@ void print_flip_costs()
       of_few += are_few ? least : 0;
       flips_of_few += are_few ? seconds.flips : 0;
       print_row({ c.name, to_text(mode), std::to_string(best.vertices), std::to_string(best.edges), std::to_string(best.statistics.number_of_flips),
-                  std::to_string(best.statistics.number_of_iterations), mode == Retriangulation::ALWAYS ? "" : to_text(1000 * seconds.discarded), to_text(1000 * least),
+                  std::to_string(best.statistics.number_of_iterations),
+                  mode == Retriangulation::ALWAYS ? "" : to_text(1000 * seconds.discarded), to_text(1000 * least),
                   to_text(1000 * seconds.flips), to_text(100 * seconds.flips / least) });
     }
   print_row({ "all below 1 %", "", "", "", "", "", "", to_text(1000 * of_few), to_text(1000 * flips_of_few),

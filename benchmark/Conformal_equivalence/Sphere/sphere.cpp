@@ -423,7 +423,8 @@ Row row_of(const std::string& specification, const Mesh& mesh, const Triangulati
   check(result.radius <= (is_sphere ? 2e-16 : 4e-16), "radius");
   check(result.barycentre <= 1e-12, "barycentre");
   check(most - least >= 20 || worst <= 1e-9, "independence");
-  for(const std::string& cell : { std::to_string(result.polyhedron.flips.size()), std::to_string(s.number_of_iterations + s.number_of_discarded_iterations),
+  for(const std::string& cell : { std::to_string(result.polyhedron.flips.size()),
+                                  std::to_string(s.number_of_iterations + s.number_of_discarded_iterations),
                                   text(result.seconds, 3), text(s.residual), text(most - least, 3), text(chords.shortest), text(chords.cross_ratio),
                                   text(chords.rounded_cross_ratio), text(bound), std::to_string(count.first), std::to_string(count.second),
                                   std::to_string(result.report.bent_faces.size()), text(result.radius), text(result.barycentre), difference,

@@ -6,11 +6,8 @@
 #ifndef CGAL_TEST_CONFORMAL_EQUIVALENCE_FLIPPED_METRICS_H
 #define CGAL_TEST_CONFORMAL_EQUIVALENCE_FLIPPED_METRICS_H
 
-#include "test_meshes.h"
+#include "index_level.h"
 
-#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
-#include <CGAL/Conformal_equivalence/Conformal_metric.h>
-#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 
 #include <algorithm>
@@ -22,12 +19,7 @@
 
 namespace testing {
 
-namespace CE = CGAL::Conformal_equivalence;
-
-typedef CE::Intrinsic_triangulation<>     Triangulation;
-typedef CE::Conformal_conditions<double>  Conditions;
-typedef CE::Conformal_metric<double>      Metric;
-typedef std::complex<double>              Complex;
+typedef std::complex<double> Complex;
 
 inline Complex complex(const std::array<double, 2>& z) { return Complex(z[0], z[1]); }
 

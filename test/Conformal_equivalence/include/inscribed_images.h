@@ -23,6 +23,40 @@
 
 namespace testing {
 
+// --- bounds on errors ---------------------------------------------------------------------------
+
+// The distance of a point of an image from where it belongs: images are found in pairs of `double`, and each of their coordinates, which are at most
+// 1, is rounded by 2^-54: together, that is sqrt(3) 2^-54.
+constexpr double rounded_place = unit_roundoff;
+
+// The distance of the barycentre of an image from the centre: the search for the transformation is content with that where rounding keeps it from
+// coming closer.
+constexpr double centred = 1e-12;
+
+// What that search goes on until, and reaches where points are spread over the whole sphere.
+constexpr double centring_goal = 1e-14;
+
+// The distance between the places of a vertex in two images of one surface in the default frame, or between the logarithms u of its factors. A
+// transformation that moves the barycentre by the goal, once for either image, moves the points by that divided by the least eigenvalue of the mean
+// of 1 - p p^T, which is above 1/5 for the surfaces of the tests.
+constexpr double centred_place = 2 * centring_goal * 5;
+
+// The sum of n angles at a centre or solid angles: each is an arc tangent of two numbers that are products of coordinates, so that some eight of
+// their roundings, and one for its addition to a sum that is at most 4 pi, count.
+inline double sum_of_angles(std::size_t n) { return 32 * unit_roundoff * double(n); }
+
+// Flips the edge e, gives it the length of Ptolemy's theorem, and follows the bound on relative errors: the sum of two products is as inexact as
+// the worse of them, and five operations round.
+template <typename Triangulation>
+void flip_with_error(Triangulation& lengths, std::vector<double>& error, Index e)
+{
+  const auto along = [&](auto h) { return lengths.edge(h); };
+  const auto h = lengths.edge_halfedge(e), g = lengths.twin(h);
+  const Index a = along(lengths.next(h)), b = along(lengths.previous(h)), c = along(lengths.next(g)), d = along(lengths.previous(g));
+  error[e] += (std::max)(error[a] + error[c], error[b] + error[d]) + 5 * unit_roundoff;
+  lengths.flip_edge(e, (lengths.length(a) * lengths.length(c) + lengths.length(b) * lengths.length(d)) / lengths.length(e));
+}
+
 // --- surfaces -----------------------------------------------------------------------------------
 
 inline Soup distorted_sphere(int levels, double noise, unsigned seed)
@@ -128,7 +162,7 @@ void check_that_parts_fill_faces(const Refinement& parts, const CGAL::Conformal_
       along[input.edge(h)].insert(h == input.edge_halfedge(input.edge(h)) ? std::make_pair(i, j) : std::make_pair(j, i));
     }
   }
-  const double rounding = 1e-12; // of the sum of up to some thousand parts, each rounded four times
+  const double rounding = 8 * unit_roundoff * parts.number_of_faces(); // a determinant of numbers up to 1, and an addition, each of some roundings
   for(double a : area)
     BOOST_TEST(std::abs(a - 1) <= rounding);
   for(Index e = 0; e < input.number_of_edges(); ++e)

@@ -317,6 +317,37 @@ Soup symmetric_grid(Index n, Height z)
   return soup;
 }
 
+// A disk with bumps: the place x, y of each, its height, and its width.
+inline Soup disk_with_bumps(Index n, const std::vector<std::array<double, 4> >& bumps)
+{
+  return symmetric_grid(n, [&](double x, double y)
+  {
+    double z = 0;
+    for(const std::array<double, 4>& b : bumps)
+      z += b[2] * std::exp(-((x - b[0]) * (x - b[0]) + (y - b[1]) * (y - b[1])) / (b[3] * b[3]));
+    return z;
+  });
+}
+
+// A sphere with four arms, each longer than the last one by `growth`.
+inline Soup arms(int levels, double growth)
+{
+  Soup soup = icosphere(levels);
+  for(Point& p : soup.points)
+  {
+    double r = 1, length = 0.8;
+    for(const Point& d : {Point{{1, 0, 0}}, Point{{-0.5, 0.8, 0.1}}, Point{{-0.4, -0.6, 0.7}}, Point{{0, -0.2, -1}}})
+    {
+      const double norm = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), c = (p[0] * d[0] + p[1] * d[1] + p[2] * d[2]) / norm;
+      r += length * std::exp(7 * (c - 1));
+      length += growth;
+    }
+    for(double& x : p)
+      x *= r;
+  }
+  return soup;
+}
+
 // A pyramid over a regular polygon, with a triangle on each of its sides.
 inline Soup star(Index n)
 {

@@ -33,6 +33,13 @@ constexpr double solved_u = 1e-12;
 // the whole layout, which is as wide as some tens of edges.
 constexpr double layout_angle = 1e-11;
 
+// Relative to the diameter of a layout: lengths, motions and periods in it. Its triangles are laid out one after the other, each with some roundings,
+// and there are some hundred from one end to the other.
+constexpr double rounded_layout = 1e-13;
+
+// Numbers of 50 digits, after some thousand operations, relative.
+constexpr double wide_rounding = 1e-45;
+
 } // namespace testing
 
 #endif // CGAL_TEST_CONFORMAL_EQUIVALENCE_TOLERANCES_H

@@ -121,7 +121,12 @@ table { border-collapse: collapse; margin-top: 1em; } td { padding: .15em 1em .1
 inline const char* html_script()
 {
   return R"html(
-function bytes(text) { const s = atob(text), b = new Uint8Array(s.length); for(let i = 0; i < s.length; ++i) b[i] = s.charCodeAt(i); return b.buffer; }
+function bytes(text)
+{
+  const s = atob(text), b = new Uint8Array(s.length);
+  for(let i = 0; i < s.length; ++i) b[i] = s.charCodeAt(i);
+  return b.buffer;
+}
 const canvas = document.getElementById("surface"), gl = canvas.getContext("webgl");
 if(gl && gl.getExtension("OES_element_index_uint") && gl.getExtension("OES_standard_derivatives")) start();
 else document.getElementById("note").textContent = "This browser shows no WebGL.";
@@ -131,7 +136,8 @@ function attribute(program, name, values) {
   const a = gl.getAttribLocation(program, name); gl.enableVertexAttribArray(a); gl.vertexAttribPointer(a, 3, gl.FLOAT, false, 0, 0); }
 function start() {
   const program = gl.createProgram();
-  gl.attachShader(program, shader(gl.VERTEX_SHADER, `attribute vec3 place, board; uniform mat3 turn; uniform vec2 zoom; varying vec3 p; varying highp vec3 t;
+  gl.attachShader(program, shader(gl.VERTEX_SHADER, `attribute vec3 place, board; uniform mat3 turn; uniform vec2 zoom;
+    varying vec3 p; varying highp vec3 t;
     void main() { p = turn * place; t = board; gl_Position = vec4(p.xy * zoom, -p.z * .2, 1.); }`));
   gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `#extension GL_OES_standard_derivatives : enable
     precision highp float; varying vec3 p; varying highp vec3 t;
@@ -146,7 +152,12 @@ function start() {
   const indices = new Uint32Array(triangles); gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
   gl.enable(gl.DEPTH_TEST); gl.clearColor(.98, .98, .97, 1.);
   let turn = [1, 0, 0, 0, 1, 0, 0, 0, 1], zoom = .8, last = null;
-  function times(a, b) { const c = []; for(let j = 0; j < 3; ++j) for(let i = 0; i < 3; ++i) c[3*j+i] = a[i]*b[3*j] + a[3+i]*b[3*j+1] + a[6+i]*b[3*j+2]; return c; }
+  function times(a, b)
+  {
+    const c = [];
+    for(let j = 0; j < 3; ++j) for(let i = 0; i < 3; ++i) c[3*j+i] = a[i]*b[3*j] + a[3+i]*b[3*j+1] + a[6+i]*b[3*j+2];
+    return c;
+  }
   function draw() {
     canvas.width = canvas.clientWidth; canvas.height = canvas.clientHeight; gl.viewport(0, 0, canvas.width, canvas.height);
     const side = Math.min(canvas.width, canvas.height);
