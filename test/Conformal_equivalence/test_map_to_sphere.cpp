@@ -954,7 +954,7 @@ BOOST_AUTO_TEST_CASE(every_vertex_can_be_sent_to_infinity)
     all.push_back(e);
   CEi::Delaunay_flipper<double> flipper(start);
   BOOST_REQUIRE(flipper.flip_to_delaunay(std::vector<double>(), all, CEi::Flip_rule::EUCLIDEAN, [&](Index e) { flips.push_back(e); }));
-  const CEi::Ideal_polyhedron_finder<double, CE::Default_solver_traits> find(given, CE::Solver_options(), CE::Default_solver_traits());
+  const CEi::Ideal_polyhedron_finder<double> find(given, CE::Solver_options(), CEi::factorization_maker<CE::Default_solver_traits>());
   std::size_t small_stars = 0;
   for(Index v = 0; v < given.number_of_vertices(); ++v)
   {

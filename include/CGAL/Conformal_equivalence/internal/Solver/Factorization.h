@@ -12,6 +12,7 @@
 #include <Eigen/SparseCore>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -106,6 +107,15 @@ template <typename SolverTraits>
 std::unique_ptr<Factorization> make_factorization(const SolverTraits& traits = SolverTraits())
 {
   return std::make_unique<Factorization_by<SolverTraits> >(traits);
+}
+
+// Makes one after the other, for engines that solve several problems and are no templates on the solver traits.
+typedef std::function<std::unique_ptr<Factorization>()> Factorization_maker;
+
+template <typename SolverTraits>
+Factorization_maker factorization_maker(SolverTraits traits = SolverTraits())
+{
+  return [traits] { return make_factorization(traits); };
 }
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h

@@ -6,7 +6,6 @@
 
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Punctured_surface.h>

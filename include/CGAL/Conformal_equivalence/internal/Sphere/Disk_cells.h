@@ -11,6 +11,7 @@
 #include <CGAL/Conformal_equivalence/internal/Sphere/ideal_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/triangulate_refinement.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <algorithm>
 #include <array>
@@ -37,23 +38,7 @@ public:
   std::vector<Index> flipped, rounded;      // faces of the surface with parts that are not positive, or not any more when rounded
 
   // `whole`: what was flipped, the surface or its double
-  Disk_cells(const Intrinsic_triangulation<NT>& surface, const Intrinsic_triangulation<NT>& whole, const Ideal_polyhedron<NT>& polyhedron)
-  {
-    const Surface_size size = { surface.number_of_vertices(), surface.number_of_edges(), surface.number_of_faces() };
-    Ideal_refinement<NT> overlay = Ideal_refinement_builder<NT>(whole, polyhedron, size)(default_maximum_number_of_crossings, weight_in_disk<Wide>);
-    if(!bool(overlay.parts))
-    {
-      refinement = std::move(overlay.parts);
-      return;
-    }
-    const std::vector<Wide_point> wide = disk_points(overlay.vectors);
-    const std::vector<std::array<NT, 2> > points = rounded_points<NT>(wide);
-    for(Index v : overlay.parts.corner_vertex)
-      overlay.parts.corner_uv.push_back(points[v]);
-    refinement = triangulate_refinement(overlay.parts);
-    vectors = std::move(overlay.vectors);
-    judge(wide);
-  }
+  Disk_cells(const Intrinsic_triangulation<NT>& surface, const Intrinsic_triangulation<NT>& whole, const Ideal_polyhedron<NT>& polyhedron);
 
 private:
   // Those that are not positive when rounded are known already.
@@ -75,6 +60,31 @@ private:
     sort_and_make_unique(rounded);
   }
 };
+
+template <typename NT>
+Disk_cells<NT>::Disk_cells(const Intrinsic_triangulation<NT>& surface, const Intrinsic_triangulation<NT>& whole,
+                           const Ideal_polyhedron<NT>& polyhedron)
+{
+  const Surface_size size = { surface.number_of_vertices(), surface.number_of_edges(), surface.number_of_faces() };
+  Ideal_refinement<NT> overlay = Ideal_refinement_builder<NT>(whole, polyhedron, size)(default_maximum_number_of_crossings, weight_in_disk<Wide>);
+  if(!bool(overlay.parts))
+  {
+    refinement = std::move(overlay.parts);
+    return;
+  }
+  const std::vector<Wide_point> wide = disk_points(overlay.vectors);
+  const std::vector<std::array<NT, 2> > points = rounded_points<NT>(wide);
+  for(Index v : overlay.parts.corner_vertex)
+    overlay.parts.corner_uv.push_back(points[v]);
+  refinement = triangulate_refinement(overlay.parts);
+  vectors = std::move(overlay.vectors);
+  judge(wide);
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Disk_cells<double>::Disk_cells(const Intrinsic_triangulation<double>&, const Intrinsic_triangulation<double>&,
+                                               const Ideal_polyhedron<double>&);
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -114,7 +114,7 @@ private:
     }
     else
     {
-      const Inscribed_mapping<NT, Solver_traits_of<NamedParameters> > mapping(t, twofold_->triangulation, options, solver_traits_of(np));
+      const Inscribed_mapping<NT> mapping(t, twofold_->triangulation, options, factorization_maker(solver_traits_of(np)));
       polyhedron = mapping(apex, [&](Ideal_polyhedron<NT>& found)
       {
         normalize(found, kind);

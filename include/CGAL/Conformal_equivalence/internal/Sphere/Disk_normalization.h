@@ -8,6 +8,7 @@
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/sphere_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <algorithm>
 #include <array>
@@ -42,15 +43,7 @@ public:
   Disk_normalization(std::vector<double> weights, Index first_border_vertex) : weights_(std::move(weights)), first_(first_border_vertex) {}
 
   // Transforms the vectors. Returns whether there is such a transformation.
-  bool operator()(const Indexed_disk_frame& frame, Vectors& v) const
-  {
-    switch(frame.kind)
-    {
-    case Indexed_disk_frame::CENTRE:       return centre(v, frame.vertices[0]);
-    case Indexed_disk_frame::THREE_POINTS: return three_points(v, frame.vertices);
-    default:                               return barycentre(v);
-    }
-  }
+  bool operator()(const Indexed_disk_frame& frame, Vectors& v) const;
 
 private:
   bool barycentre(Vectors& v) const { return Moebius_centering(weights_, true)(v) && turn(v, first_); }
@@ -134,6 +127,21 @@ private:
   std::vector<double> weights_;
   Index first_;
 };
+
+template <typename Wide>
+bool Disk_normalization<Wide>::operator()(const Indexed_disk_frame& frame, Vectors& v) const
+{
+  switch(frame.kind)
+  {
+  case Indexed_disk_frame::CENTRE:       return centre(v, frame.vertices[0]);
+  case Indexed_disk_frame::THREE_POINTS: return three_points(v, frame.vertices);
+  default:                               return barycentre(v);
+  }
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template bool Disk_normalization<Double_double>::operator()(const Indexed_disk_frame&, Vectors&) const;
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

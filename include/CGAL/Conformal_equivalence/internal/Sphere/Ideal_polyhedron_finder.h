@@ -46,7 +46,8 @@
 #include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
-#include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Apex_star.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Punctured_surface.h>
@@ -65,7 +66,7 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-template <typename NT, typename SolverTraits>
+template <typename NT>
 class Ideal_polyhedron_finder
 {
   typedef std::uint32_t Index;
@@ -75,8 +76,8 @@ class Ideal_polyhedron_finder
 
 public:
   // The triangulation is kept as a reference.
-  Ideal_polyhedron_finder(const Triangulation& t, const Solver_options& options, const SolverTraits& traits)
-    : given_(t), options_(options), traits_(traits)
+  Ideal_polyhedron_finder(const Triangulation& t, const Solver_options& options, Factorization_maker make_factorization)
+    : given_(t), options_(options), make_factorization_(std::move(make_factorization))
   {}
 
   // On the triangulation as it is.
@@ -245,7 +246,11 @@ private:
 
   Metric solve(Triangulation rest, const Conformal_conditions<NT>& conditions, const Solver_options& options) const
   {
-    return Conformal_metric_solver<NT, SolverTraits>(std::move(rest), traits_).solve(conditions, options);
+    Metric_finder<NT> finder(std::move(rest), make_factorization_());
+    Metric result = finder.find(conditions, options);
+    if(!result.is_retriangulated())
+      result.triangulation = finder.take_triangulation();
+    return result;
   }
 
   void take_over(const Metric& metric, Polyhedron& result) const
@@ -278,7 +283,7 @@ private:
 
   const Triangulation& given_;
   const Solver_options options_;
-  const SolverTraits traits_;
+  const Factorization_maker make_factorization_;
 };
 
 } // namespace internal

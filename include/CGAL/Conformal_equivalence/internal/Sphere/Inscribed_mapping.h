@@ -18,7 +18,9 @@
 #include <CGAL/Conformal_equivalence/internal/Doors/Stages.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/resolve_degenerate_faces.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/best_apices.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -44,7 +46,7 @@ namespace Conformal_equivalence {
 
 namespace internal {
 
-template <typename NT, typename SolverTraits>
+template <typename NT>
 class Inscribed_mapping
 {
   typedef std::uint32_t Index;
@@ -56,24 +58,12 @@ public:
   typedef std::function<std::vector<Index>(Polyhedron&)> Accept;
 
   // `surface`: closed, or with one border; `whole`: the same, or its double. Both are kept as references.
-  Inscribed_mapping(const Triangulation& surface, const Triangulation& whole, Solver_options options, SolverTraits traits)
-    : surface_(surface), whole_(whole), options_(std::move(options)), traits_(std::move(traits))
+  Inscribed_mapping(const Triangulation& surface, const Triangulation& whole, Solver_options options, Factorization_maker make_factorization)
+    : surface_(surface), whole_(whole), options_(std::move(options)), make_factorization_(std::move(make_factorization))
   {}
 
   // The polyhedron that is accepted. On failure its status says why. `apex`: null_index for the best one.
-  Polyhedron operator()(Index apex, const Accept& accept) const
-  {
-    if(!is_closed() || options_.retriangulation != Retriangulation::WHEN_NEEDED || degenerate_faces(whole_).empty())
-      return find(apex, accept);
-    Triangulation resolved = whole_;
-    const std::vector<Index> flips = resolve_degenerate_faces(resolved);
-    Polyhedron result = Inscribed_mapping(resolved, resolved, options_, traits_).find(apex, accept);
-    result.flips.insert(result.flips.begin(), flips.begin(), flips.end());
-    result.statistics.number_of_flips = result.flips.size();
-    result.statistics.number_of_resolving_flips = flips.size();
-    result.statistics.conformal_class = Conformal_class::GIVEN_TRIANGULATION;
-    return result;
-  }
+  Polyhedron operator()(Index apex, const Accept& accept) const;
 
 private:
   Polyhedron find(Index apex, const Accept& accept) const
@@ -136,7 +126,7 @@ private:
     const std::vector<Index> best = best_apices(surface_, 1);
     if(best.empty() && apex == surface_.null_index)
       return without_apex();
-    const Ideal_polyhedron_finder<NT, SolverTraits> find(surface_, options_, traits_);
+    const Ideal_polyhedron_finder<NT> find(surface_, options_, make_factorization_);
     const auto found = [&](Index a) { return judged(find.on_fixed_triangulation(a, axis(a)), accept); };
     Polyhedron result = best.empty() ? without_apex() : found(best[0]);
     if(apex == surface_.null_index || (!best.empty() && apex == best[0]) || !(is_any_good || is_success(result.status)))
@@ -159,7 +149,7 @@ private:
     std::vector<Index> apices = best_apices(is_closed() ? start : surface_, most_apices_);
     if(apex != surface_.null_index) // others lead to the same polyhedron, if this one fails
       apices.insert(apices.begin(), apex);
-    const Ideal_polyhedron_finder<NT, SolverTraits> find(whole_, options_, traits_);
+    const Ideal_polyhedron_finder<NT> find(whole_, options_, make_factorization_);
     result = without_apex();
     for(Index a : apices)
     {
@@ -198,8 +188,27 @@ private:
   const Triangulation& surface_;
   const Triangulation& whole_;
   const Solver_options options_;
-  const SolverTraits traits_;
+  const Factorization_maker make_factorization_;
 };
+
+template <typename NT>
+Ideal_polyhedron<NT> Inscribed_mapping<NT>::operator()(Index apex, const Accept& accept) const
+{
+  if(!is_closed() || options_.retriangulation != Retriangulation::WHEN_NEEDED || degenerate_faces(whole_).empty())
+    return find(apex, accept);
+  Triangulation resolved = whole_;
+  const std::vector<Index> flips = resolve_degenerate_faces(resolved);
+  Polyhedron result = Inscribed_mapping(resolved, resolved, options_, make_factorization_).find(apex, accept);
+  result.flips.insert(result.flips.begin(), flips.begin(), flips.end());
+  result.statistics.number_of_flips = result.flips.size();
+  result.statistics.number_of_resolving_flips = flips.size();
+  result.statistics.conformal_class = Conformal_class::GIVEN_TRIANGULATION;
+  return result;
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Ideal_polyhedron<double> Inscribed_mapping<double>::operator()(std::uint32_t, const Accept&) const;
+#endif
 
 // The stages of a map, one after the other, each only if all went well before: lengths; `is_kind()`, whether it is a surface of the right kind;
 // `find()`; `judge()`.

@@ -12,6 +12,7 @@
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/options.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <cmath>
 #include <cstddef>
@@ -41,13 +42,7 @@ public:
 
   // Finds the vectors, not normalized. Returns whether this is such a surface, and, where edges are flipped first, whether there are still all border
   // edges, so that it can be developed.
-  bool operator()(Retriangulation retriangulation)
-  {
-    if(!has_only_border_vertices() || !start(retriangulation))
-      return false;
-    place();
-    return true;
-  }
+  bool operator()(Retriangulation retriangulation);
 
 private:
   bool has_only_border_vertices() const
@@ -131,6 +126,19 @@ private:
   const Triangulation& surface_;
   const Surface_double<NT>& twofold_;
 };
+
+template <typename NT>
+bool Inscribed_polygon<NT>::operator()(Retriangulation retriangulation)
+{
+  if(!has_only_border_vertices() || !start(retriangulation))
+    return false;
+  place();
+  return true;
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template bool Inscribed_polygon<double>::operator()(Retriangulation);
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -13,6 +13,7 @@
 #include <CGAL/Conformal_equivalence/internal/Sphere/sphere_points.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/sphere_predicates.h>
 #include <CGAL/Conformal_equivalence/triangulate_refinement.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -41,25 +42,7 @@ public:
   std::vector<Light_vector<Wide> > vectors; // by vertex of the refinement
   std::vector<Index> flipped, rounded;      // faces of the surface with parts that are not positive, or not any more when rounded
 
-  Sphere_cells(const Intrinsic_triangulation<NT>& t, const Ideal_polyhedron<NT>& polyhedron)
-  {
-    const Surface_size size = { t.number_of_vertices(), t.number_of_edges(), t.number_of_faces() };
-    Ideal_refinement<NT> overlay = Ideal_refinement_builder<NT>(t, polyhedron, size)(
-      default_maximum_number_of_crossings, [](const Light_vector<Wide>& v) { return v[3]; });
-    if(!bool(overlay.parts))
-    {
-      refinement.parts = std::move(overlay.parts);
-      return;
-    }
-    const std::vector<Wide_point> wide = sphere_points(overlay.vectors);
-    set_weights(t.number_of_vertices(), overlay);
-    project_faces(wide, overlay.parts);
-    refinement.parts = triangulate_refinement(overlay.parts);
-    refinement.parts.corner_uv.clear();
-    refinement.points = rounded_points<NT>(wide);
-    vectors = std::move(overlay.vectors);
-    judge(wide);
-  }
+  Sphere_cells(const Intrinsic_triangulation<NT>& t, const Ideal_polyhedron<NT>& polyhedron);
 
 private:
   // Points of edges of the polyhedron lie within the sphere, and go from there to it: for these points of the sphere w is not the
@@ -123,6 +106,31 @@ private:
     sort_and_make_unique(rounded);
   }
 };
+
+template <typename NT>
+Sphere_cells<NT>::Sphere_cells(const Intrinsic_triangulation<NT>& t, const Ideal_polyhedron<NT>& polyhedron)
+{
+  const Surface_size size = { t.number_of_vertices(), t.number_of_edges(), t.number_of_faces() };
+  Ideal_refinement<NT> overlay = Ideal_refinement_builder<NT>(t, polyhedron, size)(
+    default_maximum_number_of_crossings, [](const Light_vector<Wide>& v) { return v[3]; });
+  if(!bool(overlay.parts))
+  {
+    refinement.parts = std::move(overlay.parts);
+    return;
+  }
+  const std::vector<Wide_point> wide = sphere_points(overlay.vectors);
+  set_weights(t.number_of_vertices(), overlay);
+  project_faces(wide, overlay.parts);
+  refinement.parts = triangulate_refinement(overlay.parts);
+  refinement.parts.corner_uv.clear();
+  refinement.points = rounded_points<NT>(wide);
+  vectors = std::move(overlay.vectors);
+  judge(wide);
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Sphere_cells<double>::Sphere_cells(const Intrinsic_triangulation<double>&, const Ideal_polyhedron<double>&);
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

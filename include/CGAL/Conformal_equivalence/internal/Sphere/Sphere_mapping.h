@@ -76,7 +76,7 @@ private:
     CGAL_precondition(apex == t.null_index || !t.is_isolated_vertex(apex));
     const Sphere_normalization<Wide> normalize = normalization(np);
     const Solver_options options = Conformal_equivalence::read_solver_options(np, 0);
-    const Inscribed_mapping<NT, Solver_traits_of<NamedParameters> > mapping(t, t, options, solver_traits_of(np));
+    const Inscribed_mapping<NT> mapping(t, t, options, factorization_maker(solver_traits_of(np)));
     polyhedron = mapping(apex, [&](Ideal_polyhedron<NT>& found)
     {
       if(!normalize(found.vectors))

@@ -6,6 +6,7 @@
 
 #include <CGAL/Conformal_equivalence/internal/Sphere/Moebius_centering.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -38,14 +39,7 @@ public:
   {}
 
   // Transforms the vectors. Returns whether there is such a transformation.
-  bool operator()(Vectors& vectors) const
-  {
-    if(!Moebius_centering(weights_, false)(vectors))
-      return false;
-    if(given_.empty() || !turn_to_points(vectors))
-      turn_to_first(vectors);
-    return true;
-  }
+  bool operator()(Vectors& vectors) const;
 
 private:
   // The rotation that brings the points nearest to those given (W. Kabsch, 1976). Returns whether there is one that is better than all others.
@@ -112,6 +106,20 @@ private:
   std::vector<std::array<double, 3> > given_;
   Index first_, second_;
 };
+
+template <typename Wide>
+bool Sphere_normalization<Wide>::operator()(Vectors& vectors) const
+{
+  if(!Moebius_centering(weights_, false)(vectors))
+    return false;
+  if(given_.empty() || !turn_to_points(vectors))
+    turn_to_first(vectors);
+  return true;
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template bool Sphere_normalization<Double_double>::operator()(Vectors&) const;
+#endif
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -98,6 +98,11 @@ bool turns_once(const Intrinsic_triangulation<NT>& t, const std::vector<std::arr
   return std::abs(sum - turn) < rounding;
 }
 
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template std::vector<std::uint32_t> flipped_faces(const Intrinsic_triangulation<double>&, const std::vector<std::array<Double_double, 2> >&);
+extern template std::vector<std::uint32_t> flipped_faces(const Intrinsic_triangulation<double>&, const std::vector<std::array<double, 2> >&);
+#endif
+
 } // namespace internal
 } // namespace Conformal_equivalence
 } // namespace CGAL

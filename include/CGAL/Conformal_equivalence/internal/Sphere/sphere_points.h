@@ -50,6 +50,11 @@ double sum_of_solid_angles(const Intrinsic_triangulation<NT>& t, const std::vect
   return result;
 }
 
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template std::vector<std::uint32_t> flipped_faces(const Intrinsic_triangulation<double>&, const std::vector<std::array<Double_double, 3> >&);
+extern template std::vector<std::uint32_t> flipped_faces(const Intrinsic_triangulation<double>&, const std::vector<std::array<double, 3> >&);
+#endif
+
 } // namespace internal
 } // namespace Conformal_equivalence
 } // namespace CGAL
