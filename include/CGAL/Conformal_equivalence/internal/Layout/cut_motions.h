@@ -74,7 +74,7 @@ void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut
   for(std::size_t c = 0; c < motions_of_torus.size(); ++c)
   {
     const std::uint32_t first = surface.components[c].first_face;
-    const auto basis = period_basis(std::move(motions_of_torus[c]), piece_of_face[first], number_of_pieces);
+    const auto basis = period_basis(motions_of_torus[c], piece_of_face[first], number_of_pieces);
     if(!basis.is_complete())
       continue;
     const auto periods = basis.standard_basis();
