@@ -8,10 +8,10 @@
 #include <CGAL/number_utils.h>
 
 #include <boost/graph/graph_traits.hpp>
-#include <boost/multiprecision/number.hpp>
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -19,13 +19,14 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The numbers in which coordinates of type FT are read and written: `double`, unless FT is a floating-point number with more digits.
+// The numbers in which coordinates of type FT are read and written: `double`, unless FT is `long double` or a floating-point number of
+// Boost.Multiprecision. The latter are the ones that have `std::numeric_limits` and are not exact; so asked, their header is not needed here.
 template <typename FT>
 struct Corner_number
 {
-  static constexpr bool is_wide = std::is_same<FT, long double>::value
-    || (boost::multiprecision::is_number<FT>::value
-        && int(boost::multiprecision::number_category<FT>::value) == int(boost::multiprecision::number_kind_floating_point));
+  typedef std::numeric_limits<FT> Limits;
+  static constexpr bool is_wide = Limits::is_specialized && !Limits::is_integer && !Limits::is_exact
+    && !std::is_same<FT, float>::value && !std::is_same<FT, double>::value;
   typedef std::conditional_t<is_wide, FT, double> type;
 
   static type from(const FT& x)

@@ -100,7 +100,7 @@ void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut
     if(motions_of_torus[c].empty())
       continue;
     const std::uint32_t first = surface.components[c].first_face;
-    const auto basis = period_basis(std::move(motions_of_torus[c]), pieces.number_in_component[piece_of_face[first]], pieces.number_of_pieces[c]);
+    const auto basis = period_basis(motions_of_torus[c], pieces.number_in_component[piece_of_face[first]], pieces.number_of_pieces[c]);
     if(!basis.is_complete())
       continue;
     const auto periods = basis.standard_basis();

@@ -10,7 +10,6 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -25,13 +24,14 @@ template <typename NT>
 std::vector<std::uint32_t> order_of_wedges(const Intrinsic_triangulation<NT>& t, const Wedges& wedges)
 {
   typedef std::uint32_t Index;
-  std::vector<Index> vertex(wedges.number_of_wedges), sorted(wedges.number_of_wedges), result(wedges.number_of_wedges);
+  std::vector<Index> vertex(wedges.number_of_wedges), next(t.number_of_vertices() + 1, 0), result(wedges.number_of_wedges);
   for(Index h = 0; h < t.number_of_halfedges(); ++h)
     vertex[wedges.of_corner[h]] = t.target(h);
-  std::iota(sorted.begin(), sorted.end(), Index(0));
-  std::stable_sort(sorted.begin(), sorted.end(), [&](Index a, Index b) { return vertex[a] < vertex[b]; });
-  for(Index i = 0; i < sorted.size(); ++i)
-    result[sorted[i]] = i;
+  for(Index v : vertex)
+    ++next[v + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin()); // now the number of the first wedge of each vertex
+  for(Index w = 0; w < wedges.number_of_wedges; ++w)
+    result[w] = next[vertex[w]]++;
   return result;
 }
 

@@ -12,14 +12,13 @@
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/stable_order.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <vector>
 
 namespace CGAL {
@@ -236,15 +235,13 @@ struct Rows
       area += (box.width() / largest + relative_gap) * (box.height() / largest + relative_gap);
       widest = (std::max)(widest, box.width() + gap);
     }
-    std::vector<std::size_t> order(boxes.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t i, std::size_t j) { return boxes[i].height() > boxes[j].height(); });
+    const std::vector<std::uint32_t> order =
+      stable_order(boxes.size(), [&](std::uint32_t i, std::uint32_t j) { return boxes[i].height() > boxes[j].height(); });
 
     const double slack = 1.1; // rows are not filled to their ends: a square of just the area would become too high
     const double bound = (std::max)(widest, slack * std::sqrt(area) * largest);
     double x = 0, y = 0, row = 0; // of the current row
-    for(std::size_t i : order)
+    for(std::uint32_t i : order)
     {
       if(x > 0 && x + boxes[i].width() + gap > bound)
       {
@@ -267,7 +264,7 @@ template <typename Wide>
 void arrange_pieces(const std::vector<Piece>& pieces, std::vector<Complex_number<Wide> >& position)
 {
   std::vector<Bounding_box> boxes(pieces.size());
-  std::map<int, std::vector<std::size_t> > blocks; // by the order of magnitude of their sizes
+  std::vector<int> magnitude(pieces.size()); // those of one magnitude form a block
   for(std::size_t i = 0; i < pieces.size(); ++i)
   {
     insert(pieces[i], position, boxes[i]);
@@ -275,19 +272,21 @@ void arrange_pieces(const std::vector<Piece>& pieces, std::vector<Complex_number
     if(boxes[i].size() > 0 && std::isfinite(boxes[i].size()))
       std::frexp(boxes[i].size(), &exponent);
     const int per_block = 4, positive = 4000; // sizes of a block differ by at most 2^4; the shift makes division round down
-    blocks[(exponent + positive) / per_block].push_back(i);
+    magnitude[i] = (exponent + positive) / per_block;
   }
   double width = 0, height = 0;
-  for(const auto& block : blocks)
+  const std::vector<std::uint32_t> order =
+    stable_order(pieces.size(), [&](std::uint32_t i, std::uint32_t j) { return magnitude[i] < magnitude[j]; });
+  for(std::size_t first = 0, last; first < order.size(); first = last)
   {
     std::vector<Bounding_box> its_boxes;
-    for(std::size_t i : block.second)
-      its_boxes.push_back(boxes[i]);
+    for(last = first; last < order.size() && magnitude[order[last]] == magnitude[order[first]]; ++last)
+      its_boxes.push_back(boxes[order[last]]);
     const Rows rows(its_boxes);
     const bool is_right = width <= height; // of the blocks before it, else above them
-    for(std::size_t k = 0; k < block.second.size(); ++k)
+    for(std::size_t k = 0; k < last - first; ++k)
     {
-      const std::size_t i = block.second[k];
+      const std::uint32_t i = order[first + k];
       const Double_point to{{rows.low[k][0] + (is_right ? width : 0), rows.low[k][1] + (is_right ? 0 : height)}};
       apply_similarity(Complex_number<Wide>{Wide(1), Wide(0)}, boxes[i].low, to, pieces[i], position);
     }

@@ -10,12 +10,12 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/stable_order.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <queue>
 #include <utility>
 #include <vector>
 
@@ -166,11 +166,14 @@ Complex_number<NT> quotient(const Complex_number<NT>& a, const Complex_number<NT
 // The lattice that the motions across the cut edges of one torus generate; nothing if it has cones. `first_piece` is
 // the one whose coordinates count.
 template <typename NT>
-Reduced_basis<NT> period_basis(std::vector<Cut_motion<NT> > motions, std::uint32_t first_piece, std::uint32_t number_of_pieces)
+Reduced_basis<NT> period_basis(const std::vector<Cut_motion<NT> >& given, std::uint32_t first_piece, std::uint32_t number_of_pieces)
 {
   typedef Cut_motion<NT> Motion;
   typedef Complex_number<NT> Complex;
-  std::stable_sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) { return a.length > b.length; });
+  std::vector<Motion> motions; // from the longest to the shortest
+  motions.reserve(given.size());
+  for(std::uint32_t i : stable_order(given.size(), [&](std::uint32_t i, std::uint32_t j) { return given[i].length > given[j].length; }))
+    motions.push_back(given[i]);
 
   // motions to the first piece, along a tree of pieces
   std::vector<std::vector<std::size_t> > of_piece(number_of_pieces);
@@ -181,19 +184,19 @@ Reduced_basis<NT> period_basis(std::vector<Cut_motion<NT> > motions, std::uint32
   }
   std::vector<Motion> home(number_of_pieces, Motion{0, 0, Complex{NT(0), NT(0)}, Complex{NT(0), NT(0)}, 0});
   std::vector<char> is_reached(number_of_pieces, 0);
-  std::queue<std::uint32_t> queue;
+  std::vector<std::uint32_t> reached(1, first_piece);
   home[first_piece] = {first_piece, first_piece, Complex{NT(1), NT(0)}, Complex{NT(0), NT(0)}, 0};
   is_reached[first_piece] = 1;
-  for(queue.push(first_piece); !queue.empty(); queue.pop())
-    for(std::size_t i : of_piece[queue.front()])
+  for(std::size_t k = 0; k < reached.size(); ++k)
+    for(std::size_t i : of_piece[reached[k]])
     {
-      const bool is_outward = motions[i].from_piece == queue.front();
+      const bool is_outward = motions[i].from_piece == reached[k];
       const std::uint32_t other = is_outward ? motions[i].to_piece : motions[i].from_piece;
       if(is_reached[other])
         continue;
       is_reached[other] = 1;
-      home[other] = home[queue.front()].after(is_outward ? motions[i].inverse() : motions[i]);
-      queue.push(other);
+      home[other] = home[reached[k]].after(is_outward ? motions[i].inverse() : motions[i]);
+      reached.push_back(other);
     }
 
   double longest = 0; // of all lengths that take part

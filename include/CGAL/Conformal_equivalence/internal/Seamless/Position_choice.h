@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/position_lattice.h>
+#include <CGAL/Conformal_equivalence/internal/stable_order.h>
 
 #include <CGAL/number_utils.h>
 
@@ -130,8 +131,10 @@ public:
       for(std::size_t i = 0; i < vectors.size(); ++i)
         add_candidate(vectors[i], s, i == 0 && vectors[i].is_closest, result);
     }
-    std::stable_sort(result.begin(), result.end(), [](const Candidate& c, const Candidate& d) { return c.cost < d.cost; });
-    return result;
+    std::vector<Candidate> sorted;
+    for(std::uint32_t i : stable_order(result.size(), [&](std::uint32_t c, std::uint32_t d) { return result[c].cost < result[d].cost; }))
+      sorted.push_back(std::move(result[i]));
+    return sorted;
   }
 
   // Looks longer for the closest one to what was aimed at.

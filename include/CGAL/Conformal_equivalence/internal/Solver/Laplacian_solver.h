@@ -73,22 +73,24 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
 
   // sort every column and join multiple edges
   int end = 0;
-  std::vector<std::pair<int, double> > sorted;
+  struct Entry { int row, place; double value; };
+  std::vector<Entry> sorted;
   for(int c = 0; c < n; ++c)
   {
     sorted.clear();
     for(int k = first[c]; k < first[c + 1]; ++k)
-      sorted.emplace_back(rows[k], values[k]);
-    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+      sorted.push_back({rows[k], k, values[k]});
+    std::sort(sorted.begin(), sorted.end(), [](const Entry& x, const Entry& y)
+              { return x.row < y.row || (x.row == y.row && x.place < y.place); });
     a.outerIndexPtr()[c] = end;
-    for(const auto& s : sorted)
+    for(const Entry& s : sorted)
     {
-      if(end > a.outerIndexPtr()[c] && rows[end - 1] == s.first)
-        values[end - 1] += s.second;
+      if(end > a.outerIndexPtr()[c] && rows[end - 1] == s.row)
+        values[end - 1] += s.value;
       else
       {
-        rows[end] = s.first;
-        values[end++] = s.second;
+        rows[end] = s.row;
+        values[end++] = s.value;
       }
     }
   }
