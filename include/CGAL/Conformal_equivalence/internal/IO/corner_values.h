@@ -13,20 +13,27 @@
 #include <cstddef>
 #include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// Whether FT is a number of Boost.Multiprecision, which has a backend; so asked, no header of that is needed here.
+template <typename FT, typename = void>
+struct Has_backend : std::false_type {};
+
+template <typename FT>
+struct Has_backend<FT, std::void_t<decltype(std::declval<const FT&>().backend())> > : std::true_type {};
+
 // The numbers in which coordinates of type FT are read and written: `double`, unless FT is `long double` or a floating-point number of
-// Boost.Multiprecision. The latter are the ones that have `std::numeric_limits` and are not exact; so asked, their header is not needed here.
+// Boost.Multiprecision. (There are no limits of those whose precision is chosen at run time.)
 template <typename FT>
 struct Corner_number
 {
   typedef std::numeric_limits<FT> Limits;
-  static constexpr bool is_wide = Limits::is_specialized && !Limits::is_integer && !Limits::is_exact
-    && !std::is_same<FT, float>::value && !std::is_same<FT, double>::value;
+  static constexpr bool is_wide = std::is_same<FT, long double>::value || (Has_backend<FT>::value && !Limits::is_integer && !Limits::is_exact);
   typedef std::conditional_t<is_wide, FT, double> type;
 
   static type from(const FT& x)
