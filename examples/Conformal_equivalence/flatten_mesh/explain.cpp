@@ -176,12 +176,28 @@ std::string advice_on_topology(Target target)
        : target == Target::DISK ? "; --target disk takes surfaces of genus 0 with one border, of one component" : "";
 }
 
-std::string advice_on_injectivity(const Options& options)
+// Lengths are scaled by e^u: where that ranges further than the digits of a number do, points that differ are rounded to the same one. With
+// some more digits they are not.
+std::string advice_on_range(const Options& options, const CE::Statistics& statistics)
+{
+  const double range = (statistics.largest_u - statistics.least_u) / std::log(2.), digits_that_triangles_need = 64;
+  if(! (range > options.precision_in_bits - 20))
+    return "";
+  const int bits = static_cast<int>(std::ceil((range + digits_that_triangles_need) / 64)) * 64;
+  return text(" (u ranges from ", statistics.least_u, " to ", statistics.largest_u, ", further than the ", options.precision_in_bits,
+              " bits of coordinates: --precision ", bits, options.target != Target::PLANE ? " or more helps)" :
+              ", or cones where triangles are lost, help)");
+}
+
+std::string advice_on_injectivity(const Options& options, const CE::Statistics& statistics)
 {
   if(options.target != Target::PLANE && keeps_triangulation(options))
     return flips;
   if(options.seamless || options.places_cones) // not by rounding
     return options.seamless ? " (more --tiles or other --cones may help)" : "";
+  const std::string on_range = options.local_repair ? "" : advice_on_range(options, statistics);
+  if(! on_range.empty())
+    return on_range;
   return options.precision_in_bits == bits_of_double && ! options.local_repair ? " (--precision BITS has more digits)" : "";
 }
 
@@ -207,7 +223,7 @@ std::string advice(const Options& options, const Report& report)
     case CE::Status::BOUND_NOT_MET:
       return " (more cones, or a looser bound, may help)";
     case CE::Status::NOT_INJECTIVE:
-      return advice_on_injectivity(options);
+      return advice_on_injectivity(options, report.statistics);
     default:
       return "";
   }

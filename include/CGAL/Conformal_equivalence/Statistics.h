@@ -93,6 +93,8 @@ struct Statistics
   Refinement_arithmetic refinement_arithmetic = Refinement_arithmetic::DOUBLE; ///< in which the last steps were computed
   double angle_defect_spread = 0;              ///< total angle added to inexact targets to meet Gauss-Bonnet (radians)
   std::size_t number_of_regularized_rows = 0;  ///< zero rows of the Hessian that had to be regularized
+  double least_u = 0;                          ///< the least u of the metric found, which no layout may be able to hold
+  double largest_u = 0;                        ///< the largest one
   std::vector<double> residuals;               ///< the residual before each Newton step, and at the end
   Seconds seconds;                             ///< time by stage
 

@@ -433,6 +433,9 @@ private:
       }
       u[v] = static_cast<double>(x);
     }
+    const auto extremes = std::minmax_element(u.begin(), u.end());
+    result.statistics.least_u = *extremes.first;
+    result.statistics.largest_u = *extremes.second;
     last_u_ = u;
   }
 
