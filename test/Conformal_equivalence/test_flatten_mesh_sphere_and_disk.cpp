@@ -433,6 +433,31 @@ BOOST_AUTO_TEST_CASE(target_disk_with_flips)
   }
 }
 
+// Towards the ends of a long strip scales fall like e^(-pi x): in double the points there are the same. What is said to help does.
+BOOST_AUTO_TEST_CASE(long_strips_need_digits)
+{
+  const testing::Index length = 30;
+  testing::Soup strip;
+  for(testing::Index x = 0; x <= length; ++x)
+    for(const double y : { 0., .5, 1. })
+      strip.points.push_back({{double(x), y, 0}});
+  for(testing::Index a = 0; a < 3 * length; ++a)
+    if(a % 3 != 2)
+    {
+      strip.triangles.push_back({{a, a + 3, a + 4}});
+      strip.triangles.push_back({{a, a + 4, a + 1}});
+    }
+  const Folder folder;
+  const std::string input = write_off(folder, "strip.off", strip);
+  const Run in_double = run({input, "-o", folder / "o.obj", "--target", "disk"});
+  BOOST_TEST(in_double.status == 1);
+  const std::string before = "further than the 53 bits of coordinates: --precision ";
+  const std::size_t at = in_double.err.find(before);
+  BOOST_REQUIRE(at != std::string::npos);
+  const std::string bits = std::to_string(std::stoi(in_double.err.substr(at + before.size())));
+  BOOST_TEST(run({input, "-o", folder / "o.obj", "--target", "disk", "--precision", bits}).status == 0);
+}
+
 BOOST_AUTO_TEST_CASE(sphere_and_disk_are_refused)
 {
   const Folder folder;

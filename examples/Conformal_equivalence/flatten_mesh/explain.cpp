@@ -183,7 +183,8 @@ std::string advice_on_range(const Options& options, const CE::Statistics& statis
   const double range = (statistics.largest_u - statistics.least_u) / std::log(2.), digits_that_triangles_need = 64;
   if(! (range > options.precision_in_bits - 20))
     return "";
-  const int bits = static_cast<int>(std::ceil((range + digits_that_triangles_need) / 64)) * 64;
+  const double certain = options.target == Target::PLANE ? range : 2 * range; // there the areas of triangles are beside coordinates of about 1
+  const int bits = static_cast<int>(std::ceil((certain + digits_that_triangles_need) / 64)) * 64;
   return text(" (u ranges from ", statistics.least_u, " to ", statistics.largest_u, ", further than the ", options.precision_in_bits,
               " bits of coordinates: --precision ", bits, options.target != Target::PLANE ? " or more helps)" :
               ", or cones where triangles are lost, help)");
