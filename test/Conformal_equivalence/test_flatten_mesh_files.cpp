@@ -535,7 +535,7 @@ BOOST_AUTO_TEST_CASE(notices)
   BOOST_TEST(said("a.obj", square) == "");
   BOOST_TEST(said("a.obj", square + "l 1 2\nvp 0.5\nl 2 3\n-- a line --\n") == "skipped lines: '--' (1), 'l' (2), 'vp' (1)\n");
   BOOST_TEST(said("a.obj", square.substr(0, square.size() - 8) + "f 1//1 3//1 4//2\n")
-             == "skipped the normals of 1 face, which names normals that are not there\n");
+             == "skipped the normals of 1 face, where not every corner has one\n");
   BOOST_TEST(said("a.ply", "ply\nformat ascii 1.0\nelement edge 2\nproperty int a\nproperty int b\nelement vertex 3\nproperty float x\nproperty float y\n"
                            "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 1\n1 2\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
              == "skipped 2 elements 'edge'\n");

@@ -178,8 +178,10 @@ private:
         number_of_losses += std::any_of(begin, end, [&](const Corner& c) { return c.normal != -1; });
     }
     if(number_of_losses != 0)
-      soup_.notices.push_back(text("skipped the normals of ", number_of_losses,
-                                   number_of_losses == 1 ? " face, which names" : " faces, which name", " normals that are not there"));
+      soup_.notices.push_back(text("skipped the normals of ", number_of_losses, number_of_losses == 1 ? " face" : " faces",
+                                   ", where not every corner has one"));
+    if(std::all_of(a.face_normals.begin(), a.face_normals.end(), [](const auto& normals) { return normals.empty(); }))
+      a.face_normals.clear();
   }
 
   Scanner in_;
