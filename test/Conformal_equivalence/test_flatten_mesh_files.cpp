@@ -1067,7 +1067,7 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written)
   const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
   check_refused({input, "-o", folder / "none/o.obj"}, 1, "cannot write");
   check_refused({input, "-o", folder.path.string()}, 1, "it is a directory");
-  check_refused({input, "-o", input}, 2, "would overwrite the input");
+  check_refused({input, "--svg", input}, 2, "would overwrite the input");
   const std::string cones = folder.write("o.mtl", "12 free\n");
   check_refused({input, "--cones", cones, "--svg", cones}, 2, "would overwrite the input");
   fs::remove(cones);
