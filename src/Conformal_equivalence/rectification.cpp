@@ -9,6 +9,10 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+template Rectification<double>::Rectification(const Intrinsic_triangulation<double>&, const Cut_graph&, const Layout<double>&,
+                                              const std::vector<Quantized_cone>&, const Texture_lattice&,
+                                              const Rectification_options&, std::unique_ptr<Factorization>);
+template Rectification<double>::~Rectification();
 template Rectified_layout& Rectification<double>::run();
 
 } // namespace internal

@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <cstddef>
+#include <utility>
 
 namespace CGAL {
 namespace Conformal_equivalence {
@@ -144,7 +145,7 @@ Flattening_report<TriangleMesh> compute_seamless_parameterization(const Triangle
   const internal::Stopwatch stopwatch;
   internal::Seamless_parameterization<TriangleMesh> seamless(internal::import_charts(tm, np), stopwatch, internal::read_seamless_options(np));
   seamless.run(np);
-  const Flattening_report<TriangleMesh>& report = seamless.flattening.report;
+  Flattening_report<TriangleMesh>& report = seamless.flattening.report;
   if(bool(report) || report.status == Status::BOUND_NOT_MET)
   {
     internal::write_corners(seamless.flattening.mesh, seamless.flattening.layout, uv);
@@ -152,7 +153,7 @@ Flattening_report<TriangleMesh> compute_seamless_parameterization(const Triangle
     internal::write_seam(seamless.flattening, np);
   }
   internal::write_report(report, np);
-  return report;
+  return std::move(report);
 }
 
 } // namespace Conformal_equivalence

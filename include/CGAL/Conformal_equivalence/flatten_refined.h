@@ -21,6 +21,8 @@
 
 #include <boost/property_map/property_map.hpp>
 
+#include <utility>
+
 namespace CGAL {
 namespace Conformal_equivalence {
 
@@ -85,7 +87,7 @@ Flattening_report<TriangleMesh> flatten_refined(const TriangleMesh& tm,
       internal::write_refined_output(flattening, parts, np, np_refined);
   }
   internal::write_report(flattening.report, np);
-  return flattening.report;
+  return std::move(flattening.report);
 }
 
 } // namespace Conformal_equivalence

@@ -70,10 +70,8 @@ class Rectification
 public:
   // `flat` is the layout of one surface. Keeps references.
   Rectification(const Triangulation& t, const Cut_graph& cut, const Layout<NT>& flat, const std::vector<Quantized_cone>& cones,
-                const Texture_lattice& lattice, const Rectification_options& options, std::unique_ptr<Factorization> factorization)
-    : t_(t), cut_(cut), flat_(flat), cones_(cones), lattice_(lattice), options_(options), factorization_(std::move(factorization)),
-      polygon_(t, cut, flat, cones, lattice), seamless_(t, polygon_, lattice_, cones, options.is_lattice_coordinates)
-  {}
+                const Texture_lattice& lattice, const Rectification_options& options, std::unique_ptr<Factorization> factorization);
+  ~Rectification();
 
   Rectification(const Rectification&) = delete;
   Rectification& operator=(const Rectification&) = delete;
@@ -458,6 +456,18 @@ private:
 };
 
 template <typename NT>
+Rectification<NT>::Rectification(const Triangulation& t, const Cut_graph& cut, const Layout<NT>& flat, const std::vector<Quantized_cone>& cones,
+                                 const Texture_lattice& lattice, const Rectification_options& options,
+                                 std::unique_ptr<Factorization> factorization)
+  : t_(t), cut_(cut), flat_(flat), cones_(cones), lattice_(lattice), options_(options), factorization_(std::move(factorization)),
+    polygon_(t, cut, flat, cones, lattice), seamless_(t, polygon_, lattice_, cones, options.is_lattice_coordinates)
+{}
+
+template <typename NT>
+Rectification<NT>::~Rectification()
+{}
+
+template <typename NT>
 Rectified_layout& Rectification<NT>::run()
 {
   find();
@@ -466,7 +476,11 @@ Rectified_layout& Rectification<NT>::run()
   return result_;
 }
 
-#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Rectification<double>::Rectification(const Intrinsic_triangulation<double>&, const Cut_graph&, const Layout<double>&,
+                                                     const std::vector<Quantized_cone>&, const Texture_lattice&,
+                                                     const Rectification_options&, std::unique_ptr<Factorization>);
+extern template Rectification<double>::~Rectification();
 extern template Rectified_layout& Rectification<double>::run();
 #endif
 
