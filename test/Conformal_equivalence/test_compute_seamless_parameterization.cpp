@@ -9,6 +9,7 @@
 
 #include "include/flattened_meshes.h"
 #include "include/test_meshes.h"
+#include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/compute_cut_graph.h>
 #include <CGAL/Conformal_equivalence/compute_layout.h>
@@ -41,36 +42,36 @@ typedef Mesh::Property_map<Vertex, double>                      Number_map;
 typedef std::complex<double>                                    Complex;
 typedef Eigen::VectorXcd                                        Coefficients;
 
+// ---- Bounds on errors
+
+// Coefficients, by elimination, of a solution of equations whose entries are a few small integers of the ring: 2^-53 times the condition number of
+// these matrices, which is below 10^4.
+constexpr double rounded_coefficient = 1e4 * unit_roundoff;
+
+// Pivots of such matrices that are not 0 are far above that.
+constexpr double zero_pivot = 1e-9;
+
+// What follows from systems with the Laplacian of a surface, relative: 2^-53 times its condition number, which is below 10^5 for the some thousand
+// vertices of the tests.
+constexpr double laplace_error = 1e5 * unit_roundoff;
+
+// Positions in a layout that has about the diameter 1 and is laid out triangle by triangle, each with some roundings; angle sums are right to
+// rounding.
+double layout_error(const CE::Intrinsic_triangulation<double>& t) { return few_roundings * t.number_of_vertices(); }
+
+// Relative, of areas: sums of some thousand determinants of four roundings, of products that are as large as a square around the layout.
+constexpr double area_error = 1e-10;
+
 // ---- Surfaces
 
 // A disk with four bumps, none like another.
 Soup bumps(Index n)
 {
-  return symmetric_grid(n, [](double x, double y)
-  {
-    const auto bump = [&](double a, double b, double h, double w) { return h * std::exp(-((x - a) * (x - a) + (y - b) * (y - b)) / (w * w)); };
-    return bump(0.31, 0.28, 0.3, 0.13) + bump(0.72, 0.35, 0.22, 0.12) + bump(0.53, 0.75, 0.25, 0.15) + bump(0.2, 0.7, 0.15, 0.11);
-  });
+  return disk_with_bumps(n, {{{0.31, 0.28, 0.3, 0.13}}, {{0.72, 0.35, 0.22, 0.12}}, {{0.53, 0.75, 0.25, 0.15}}, {{0.2, 0.7, 0.15, 0.11}}});
 }
 
 // A sphere with arms of different lengths.
-Soup arms(int levels)
-{
-  Soup soup = icosphere(levels);
-  for(Point& p : soup.points)
-  {
-    double r = 1, length = 0.8;
-    for(const Point& d : {Point{{1, 0, 0}}, Point{{-0.5, 0.8, 0.1}}, Point{{-0.4, -0.6, 0.7}}, Point{{0, -0.2, -1}}})
-    {
-      const double norm = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), c = (p[0] * d[0] + p[1] * d[1] + p[2] * d[2]) / norm;
-      r += length * std::exp(7 * (c - 1));
-      length += 0.1;
-    }
-    for(double& x : p)
-      x *= r;
-  }
-  return soup;
-}
+Soup arms(int levels) { return testing::arms(levels, 0.1); }
 
 // ---- A flat layout with cones, by the parts of the package
 
@@ -225,7 +226,7 @@ void check_whole(const Result& r, int n)
   BOOST_TEST(r.report.tiling.symmetry == n);
   BOOST_TEST(r.report.tiling.mean_distortion >= 1);
   BOOST_TEST(r.report.tiling.maximum_distortion >= r.report.tiling.mean_distortion);
-  BOOST_TEST(r.report.tiling.number_of_tiles == area(r), boost::test_tools::tolerance(1e-9)); // in lattice coordinates a tile has area 1
+  BOOST_TEST(r.report.tiling.number_of_tiles == area(r), boost::test_tools::tolerance(area_error)); // in lattice coordinates a tile has area 1
 }
 
 // How far the lengths in the plane are from the conformally scaled ones, but for one factor.
@@ -265,7 +266,7 @@ void test_ring()
   {
     const Number x = number(), y = number();
     BOOST_TEST(((x * y).norm() == x.norm() * y.norm()));
-    BOOST_TEST(std::abs(complex(x * y) - complex(x) * complex(y)) < 1e-9);
+    BOOST_TEST(std::abs(complex(x * y) - complex(x) * complex(y)) <= 4e4 * few_roundings); // of two numbers below 200
     BOOST_TEST(((x * x.conjugate()) == Number(x.norm())));
     BOOST_TEST((Number(0, 1) * x == Number::unit(1) * x));
     if(!y.is_zero())
@@ -341,8 +342,8 @@ void test_null_space()
       for(std::size_t j = 0; j < k; ++j)
       {
         const auto p = lattice.from_plane(coefficients(j));
-        BOOST_TEST(std::abs(p[0] - std::round(p[0])) < 1e-8);
-        BOOST_TEST(std::abs(p[1] - std::round(p[1])) < 1e-8);
+        BOOST_TEST(std::abs(p[0] - std::round(p[0])) <= rounded_coefficient);
+        BOOST_TEST(std::abs(p[1] - std::round(p[1])) <= rounded_coefficient);
       }
     }
   }
@@ -359,8 +360,8 @@ BOOST_AUTO_TEST_CASE(the_null_space_is_exact_and_whole)
 
 namespace {
 
-// The sides of the meta-polygon in their order along the border of the surface cut open, and the matrices A and B of section 6.1. Every side is an unknown;
-// `cone_after[i]` is the cone at the end of side i, or none.
+// The sides of the meta-polygon in their order along the border of the surface cut open, and the matrices A and B of section 6.1. Every side is an
+// unknown; `cone_after[i]` is the cone at the end of side i, or none.
 struct Paper_matrices
 {
   Eigen::MatrixXcd A, B;
@@ -437,7 +438,7 @@ Paper_matrices paper_matrices(const Flat& f, const Meta_polygon& polygon, const 
 int rank(const Eigen::MatrixXcd& m)
 {
   Eigen::FullPivLU<Eigen::MatrixXcd> lu(m);
-  lu.setThreshold(1e-9);
+  lu.setThreshold(zero_pivot);
   return int(lu.rank());
 }
 
@@ -461,7 +462,7 @@ BOOST_AUTO_TEST_CASE(admissible_positions_are_those_of_the_papers_matrices)
 
       const Paper_matrices m = paper_matrices(*f, r.polygon(), lattice);
       Eigen::FullPivLU<Eigen::MatrixXcd> lu(m.A);
-      lu.setThreshold(1e-9);
+      lu.setThreshold(zero_pivot);
       const Eigen::MatrixXcd images = m.B * lu.kernel();
       BOOST_TEST(rank(images) == int(rank_of_lattice));
 
@@ -509,7 +510,7 @@ BOOST_AUTO_TEST_CASE(motions_take_the_first_corner_of_a_vertex_to_all_others)
       largest = (std::max)(largest, std::abs(lattice.to_plane(back) - lattice.to_plane(first)));
       n_moved += r.polygon().motion_of_corner[h] != 0 ? 1 : 0;
     }
-    BOOST_TEST(largest < 1e-10);
+    BOOST_TEST(largest <= layout_error(f->t));
     BOOST_TEST(n_moved > 20u);
   }
 }
@@ -530,9 +531,10 @@ BOOST_AUTO_TEST_CASE(the_laplace_layout_of_the_flat_positions_is_the_breadth_fir
       double largest = 0;
       for(Index v = 0; v < f->t.number_of_vertices(); ++v)
         largest = (std::max)(largest, std::abs(z[v] - r.normalized_corners()[r.polygon().first_corner[v]]));
-      BOOST_TEST(largest < 1e-9);
-      BOOST_TEST(std::abs((r.choice().flat_coefficients().adjoint() * r.choice().energy() * r.choice().flat_coefficients())(0)) < 1e-12 * r.choice().energy().norm()
-                                                                                                     * r.choice().flat_coefficients().squaredNorm());
+      BOOST_TEST(largest <= laplace_error);
+      const Coefficients& flat_ones = r.choice().flat_coefficients();
+      const double energy = std::abs((flat_ones.adjoint() * r.choice().energy() * flat_ones)(0));
+      BOOST_TEST(energy <= laplace_error * r.choice().energy().norm() * flat_ones.squaredNorm());
     }
 }
 
@@ -592,15 +594,15 @@ BOOST_AUTO_TEST_CASE(the_hermitian_form_is_the_conformal_energy_and_the_layout_i
       BOOST_TEST_REQUIRE(k > 1u);
       BOOST_TEST((r.choice().energy() - r.choice().energy().adjoint()).norm() == 0);
       const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(r.choice().energy()).eigenvalues();
-      BOOST_TEST(eigenvalues(0) > -1e-10 * eigenvalues(k - 1)); // zero: that of the flat layout
-      BOOST_TEST(eigenvalues(0) < 1e-10 * eigenvalues(k - 1));
+      BOOST_TEST(std::abs(eigenvalues(0)) <= laplace_error * eigenvalues(k - 1)); // zero: that of the flat layout
       BOOST_TEST(eigenvalues(1) > 0);
       for(int trial = 0; trial < 5; ++trial)
       {
         const Coefficients x = random_coefficients(k, random);
         std::vector<Complex> z = r.laplace_layout(x);
         const double energy = conformal_energy(*f, r, lattice, x, z), form = (x.adjoint() * r.choice().energy() * x)(0).real();
-        BOOST_TEST(energy == form, boost::test_tools::tolerance(1e-8));
+        const double error = 100 * laplace_error; // the difference of Dirichlet's energy and the area, which are up to a hundred times larger
+        BOOST_TEST(energy == form, boost::test_tools::tolerance(error));
         // anywhere else it is larger: by a second derivative that does not depend on where the vertex is
         for(int moved = 0; moved < 20; ++moved)
         {
@@ -614,14 +616,14 @@ BOOST_AUTO_TEST_CASE(the_hermitian_form_is_the_conformal_energy_and_the_layout_i
           const double down = conformal_energy(*f, r, lattice, x, z) - energy;
           z[v] = before;
           BOOST_TEST(up > 0);
-          BOOST_TEST(std::abs(up - down) < 1e-7 * (up + down + std::abs(energy))); // stationary
+          BOOST_TEST(std::abs(up - down) <= error * (up + down + std::abs(energy))); // stationary
         }
       }
     }
 }
 
-// The rounding of the paper: as many cones as are independent go to the nearest lattice points, and the rest follows. Returns false if the coefficients
-// then are not in the ring.
+// The rounding of the paper: as many cones as are independent go to the nearest lattice points, and the rest follows. Returns false if the
+// coefficients then are not in the ring.
 bool round_independent_cones(const Rectification& r, const Texture_lattice& lattice, const Complex& scale, Coefficients& x)
 {
   const Eigen::Index rank = Eigen::Index(r.positions().rank());
@@ -651,7 +653,7 @@ bool round_independent_cones(const Rectification& r, const Texture_lattice& latt
   bool is_integral = true;
   for(Eigen::Index j = 0; j < rank; ++j)
   {
-    is_integral = is_integral && std::abs(x(j) - nearest(x(j))) < 1e-6;
+    is_integral = is_integral && std::abs(x(j) - nearest(x(j))) <= zero_pivot; // other quotients are at least the inverse of a determinant away
     x(j) = nearest(x(j));
   }
   return is_integral;
@@ -682,7 +684,7 @@ BOOST_AUTO_TEST_CASE(positions_have_less_energy_than_the_papers_rounding)
           basis(i, j) = Complex(double(r.positions().basis[j][i][0]), double(r.positions().basis[j][i][1]));
       }
       chosen = basis.colPivHouseholderQr().solve(q);
-      BOOST_TEST((basis * chosen - q).norm() < 1e-9 * q.norm());
+      BOOST_TEST((basis * chosen - q).norm() <= rounded_coefficient * q.norm());
     }
     for(int k = 0; k < 64; ++k)
     {
@@ -690,7 +692,8 @@ BOOST_AUTO_TEST_CASE(positions_have_less_energy_than_the_papers_rounding)
       if(!round_independent_cones(r, lattice, std::polar(std::sqrt(tiles), pi / 2 * k / 64), x) || x.norm() == 0)
         continue;
       ++n_compared;
-      n_better += r.choice().relative_energy(chosen) <= r.choice().relative_energy(x) * (1 + 1e-9) + 1. / 256 * 0.1 ? 1 : 0;
+      const double most_of_scale = 0.3 * 0.3 / 256; // what is minimized has that in addition, where the scale is by 0.3 another one than asked for
+      n_better += r.choice().relative_energy(chosen) <= r.choice().relative_energy(x) * (1 + laplace_error) + most_of_scale ? 1 : 0;
     }
   }
   BOOST_TEST(n_compared >= 32u);
@@ -713,7 +716,7 @@ BOOST_AUTO_TEST_CASE(seams_are_exact_bit_for_bit)
       for(const auto& cone : r->report.cones)
       {
         const double quanta = cone.angle / (2 * pi / n);
-        BOOST_TEST(std::abs(quanta - std::round(quanta)) < 1e-12);
+        BOOST_TEST(std::abs(quanta - std::round(quanta)) <= 4 * n * unit_roundoff); // of less than 2 n
         BOOST_TEST(cone.free_angle > 0);
       }
     }
@@ -734,15 +737,20 @@ BOOST_AUTO_TEST_CASE(cartesian_coordinates_of_hexagons_are_exact_to_rounding)
     const Point_2 &p = lattice->uv[h], &q = plane->uv[h];
     largest = (std::max)(largest, std::hypot(p.x() + p.y() / 2 - q.x(), p.y() * std::sqrt(0.75) - q.y()));
   }
-  BOOST_TEST(largest < 1e-12);
+  const double error = 100 * few_roundings; // of coordinates below 100, for some 200 tiles
+  BOOST_TEST(largest <= error);
   for(const auto& t : plane->report.transitions)
   {
     const Complex rotation(t.rotation[0], t.rotation[1]), translation(t.translation[0], t.translation[1]);
-    BOOST_TEST(std::abs(rotation - std::polar(1., pi / 3 * t.quanta)) < 1e-15);
+    BOOST_TEST(std::abs(rotation - std::polar(1., pi / 3 * t.quanta)) <= few_roundings);
     const auto z = [&](Halfedge h) { return Complex(plane->uv[h].x(), plane->uv[h].y()); };
-    BOOST_TEST(std::abs(rotation * z(t.halfedge) + translation - z(plane->sm.prev(plane->sm.opposite(t.halfedge)))) < 1e-12);
+    BOOST_TEST(std::abs(rotation * z(t.halfedge) + translation - z(plane->sm.prev(plane->sm.opposite(t.halfedge)))) <= error);
   }
 }
+
+// Relative, of the lengths of edges in a layout that nothing deforms: its corners come from a system with the Laplacian, and are as exact as the
+// whole layout, of which the shortest edges are a hundredth.
+constexpr double distortion_error = 100 * laplace_error;
 
 // With one or two cones on a disk, or three on a sphere, there is nothing to deform: the paper's Figure 5.
 BOOST_AUTO_TEST_CASE(two_cones_on_a_lens_and_three_on_a_sphere_stay_conformal)
@@ -753,25 +761,23 @@ BOOST_AUTO_TEST_CASE(two_cones_on_a_lens_and_three_on_a_sphere_stay_conformal)
   check_whole(*lens, 2);
   BOOST_TEST_REQUIRE(lens->report.cones.size() == 2u);
   BOOST_TEST((lens->report.cones[0].lattice_point != lens->report.cones[1].lattice_point));
-  BOOST_TEST(lens->report.tiling.mean_distortion < 1 + 1e-9);
-  BOOST_TEST(lens->report.tiling.maximum_distortion < 1 + 1e-7);
-  BOOST_TEST(conformal_error(*lens) < 1e-9);
+  BOOST_TEST(lens->report.tiling.mean_distortion <= 1 + distortion_error);
+  BOOST_TEST(lens->report.tiling.maximum_distortion <= 1 + 100 * distortion_error); // of the smallest triangle
+  BOOST_TEST(conformal_error(*lens) <= distortion_error);
 
-  for(const int n : {2, 4, 3})
+  for(const int n : {4, 3}) // three multiples of pi do not sum up to 2 pi
   {
     const auto sphere = result(arms(3));
     auto angle = sphere->sm.add_property_map<Vertex, double>("v:angle", 2 * pi).first;
-    const std::map<int, std::array<double, 3> > angles = {{2, {{0, 0, 0}}}, {4, {{pi / 2, pi, pi / 2}}}, {3, {{2 * pi / 3, 2 * pi / 3, 2 * pi / 3}}}};
-    if(n == 2)
-      continue; // three multiples of pi do not sum up to 2 pi
+    const std::map<int, std::array<double, 3> > angles = {{4, {{pi / 2, pi, pi / 2}}}, {3, {{2 * pi / 3, 2 * pi / 3, 2 * pi / 3}}}};
     const std::array<int, 3> where = {{0, 5, 11}};
     for(int i = 0; i < 3; ++i)
       angle[Vertex(where[i])] = angles.at(n)[i];
     (*sphere)(params::cone_angle_map(angle).angle_quantum(2 * pi / n).number_of_tiles(100).seamless_coordinates(CE::Seamless_coordinates::LATTICE));
     check_whole(*sphere, n);
-    BOOST_TEST(sphere->report.tiling.mean_distortion < 1 + 1e-8);
+    BOOST_TEST(sphere->report.tiling.mean_distortion <= 1 + distortion_error);
     if(n == 4)
-      BOOST_TEST(conformal_error(*sphere) < 1e-8);
+      BOOST_TEST(conformal_error(*sphere) <= distortion_error);
   }
 }
 
@@ -785,7 +791,7 @@ BOOST_AUTO_TEST_CASE(four_cones_of_pi_on_a_sphere)
   (*r)(params::cone_angle_map(angle).angle_quantum(pi).number_of_tiles(60));
   check_whole(*r, 2);
   BOOST_TEST(r->report.cones.size() == 4u);
-  BOOST_TEST(r->report.tiling.mean_distortion > 1 + 1e-6); // not by chance a lattice point already
+  BOOST_TEST(r->report.tiling.mean_distortion > 1 + 1000 * distortion_error); // not by chance a lattice point already
 }
 
 BOOST_AUTO_TEST_CASE(more_tiles_mean_less_distortion)
@@ -830,8 +836,8 @@ BOOST_AUTO_TEST_CASE(a_disk_without_cones_and_a_disk_with_given_cones)
   const auto plain = result(bumps(16));
   (*plain)(params::number_of_tiles(50));
   check_whole(*plain, 4);
-  BOOST_TEST(plain->report.tiling.number_of_tiles == 50, boost::test_tools::tolerance(1e-9));
-  BOOST_TEST(conformal_error(*plain) < 1e-10);
+  BOOST_TEST(plain->report.tiling.number_of_tiles == 50, boost::test_tools::tolerance(area_error));
+  BOOST_TEST(conformal_error(*plain) <= 100 * layout_error(triangulation(bumps(16)))); // the shortest edges are a hundredth of it
 
   const auto given = result(bumps(24));
   auto angle = given->sm.add_property_map<Vertex, double>("v:angle", 2 * pi).first;
@@ -855,7 +861,7 @@ BOOST_AUTO_TEST_CASE(further_borders_need_multiples_and_are_refused_otherwise)
   BOOST_TEST((refused->report.status == CE::Status::NOT_SEAMLESS));
   BOOST_TEST(!refused->report.edges.empty());
   const double quarter = refused->report.amount / (pi / 2);
-  BOOST_TEST(std::abs(quarter - std::round(quarter)) > 1e-6);
+  BOOST_TEST(std::abs(quarter - std::round(quarter)) > 1e-6); // not by a quarter of a turn, by far more than rounding
   BOOST_TEST(refused->is_untouched());
 
   for(const int quarters : {0, 1, 3})
@@ -900,7 +906,7 @@ BOOST_AUTO_TEST_CASE(handles_are_refused_with_the_rotation_unless_it_fits)
   BOOST_TEST((cones->report.status == CE::Status::NOT_SEAMLESS));
   BOOST_TEST(!cones->report.edges.empty());
   const double quarter = cones->report.amount / (pi / 2);
-  BOOST_TEST(std::abs(quarter - std::round(quarter)) > 1e-6);
+  BOOST_TEST(std::abs(quarter - std::round(quarter)) > 1e-6); // not by a quarter of a turn, by far more than rounding
   BOOST_TEST(cones->report.cones.size() == 2u); // delivered all the same
   BOOST_TEST(cones->is_untouched());
 }
@@ -915,8 +921,8 @@ BOOST_AUTO_TEST_CASE(results_do_not_depend_on_the_unit_of_length)
     const auto other = result(scaled(bumps(24), unit));
     (*other)(params::number_of_cones(4).number_of_tiles(200));
     check_whole(*other, 4);
-    BOOST_TEST(other->report.tiling.number_of_tiles == one->report.tiling.number_of_tiles, boost::test_tools::tolerance(1e-9));
-    BOOST_TEST(other->report.tiling.scale * unit == one->report.tiling.scale, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(other->report.tiling.number_of_tiles == one->report.tiling.number_of_tiles, boost::test_tools::tolerance(area_error));
+    BOOST_TEST(other->report.tiling.scale * unit == one->report.tiling.scale, boost::test_tools::tolerance(area_error));
     BOOST_REQUIRE(other->report.cones.size() == one->report.cones.size());
     for(std::size_t i = 0; i < one->report.cones.size(); ++i)
       BOOST_TEST((other->report.cones[i].lattice_point == one->report.cones[i].lattice_point));
@@ -940,23 +946,15 @@ BOOST_AUTO_TEST_CASE(a_given_solver_finds_the_same)
 // Where edges are flipped, straight triangles may be inverted before anything is deformed.
 BOOST_AUTO_TEST_CASE(inverted_straight_triangles_are_mended)
 {
-  std::size_t n_flipped = 0, n_done = 0;
+  std::size_t n_flipped = 0;
   for(unsigned seed = 1; seed <= 6; ++seed)
   {
     const auto r = result(random_height_field(16, 4, seed));
     (*r)(params::number_of_cones(3).number_of_tiles(200));
     n_flipped += r->report.statistics.number_of_flips > 0 ? 1 : 0;
-    if(!bool(r->report))
-    {
-      BOOST_TEST((r->report.status == CE::Status::NOT_INJECTIVE));
-      BOOST_TEST(r->is_untouched());
-      continue;
-    }
-    ++n_done;
     check_whole(*r, 4);
   }
-  BOOST_TEST(n_flipped >= 2u);
-  BOOST_TEST(n_done >= 4u);
+  BOOST_TEST(n_flipped == 2u);
 }
 
 BOOST_AUTO_TEST_CASE(bad_input_is_refused)

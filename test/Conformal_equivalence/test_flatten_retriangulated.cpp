@@ -33,14 +33,13 @@ using CE::Status;
 namespace {
 
 typedef CE::Flattening_report<Mesh>       Report;
-typedef CE::Exact_angle<double>           Angle;
 
 // The metric is what it should be: triangles, angle sums, Delaunay, on the triangulation that it has.
 Metric solved(const Triangulation& t, const Conditions& conditions, Retriangulation mode)
 {
   const Metric metric = CE::compute_conformal_metric(t, conditions, params::retriangulation(mode));
   BOOST_TEST_REQUIRE(bool(metric), CE::message(metric.status) << ", residual " << metric.statistics.residual);
-  BOOST_TEST(metric.statistics.residual <= (std::max)(1e-12, metric.statistics.residual_floor));
+  BOOST_TEST(metric.statistics.residual <= (std::max)(solver_tolerance, metric.statistics.residual_floor));
   const Triangulation& r = metric.triangulation;
   const auto length = [&](Index h) { return metric.scaled_length(h); };
   std::vector<double> sum(r.number_of_vertices(), 0), cotangents(r.number_of_edges(), 0), size(r.number_of_edges(), 0);
@@ -58,16 +57,21 @@ Metric solved(const Triangulation& t, const Conditions& conditions, Retriangulat
   for(Index v = 0; v < t.number_of_vertices(); ++v)
     if(!t.is_isolated_vertex(v) && !conditions.is_fixed(v))
       BOOST_TEST(std::abs(sum[v] - (metric.is_doubled && t.is_border_vertex(v) ? 2 : 1) * conditions.angle_sum(v).radians())
-                 <= (std::max)(1e-10, 1e-13 / thinnest));
+                 <= (std::max)(layout_angle, 100 * few_roundings / thinnest)); // of up to a hundred angles
     else if(!t.is_isolated_vertex(v))
       BOOST_TEST(metric.log_scale_factors[v] == conditions.log_scale_factor(v));
-  const CE::Delaunay_property delaunay = metric.statistics.delaunay;
-  BOOST_TEST((delaunay == CE::Delaunay_property::EXACT || delaunay == CE::Delaunay_property::WITHIN_ROUNDING
-              || (delaunay == CE::Delaunay_property::NOT_ASKED && !metric.is_retriangulated())));
-  if(metric.is_retriangulated())
-    for(Index e = 0; e < r.number_of_edges(); ++e)
-      if(r.is_flippable(e))
-        BOOST_TEST(cotangents[e] >= -1e-8 - 1e-13 * size[e] * size[e]);
+  const bool is_asked = metric.is_retriangulated() || mode == Retriangulation::ALWAYS;
+  bool is_tie = false; // within rounding: areas of needles lose as many digits as the square of size says
+  for(Index e = 0; is_asked && e < r.number_of_edges(); ++e)
+    if(r.is_flippable(e))
+    {
+      const double rounding = few_roundings * std::pow(1 + size[e], 3);
+      BOOST_TEST(cotangents[e] >= -rounding);
+      is_tie = is_tie || cotangents[e] <= rounding;
+    }
+  const CE::Delaunay_property delaunay = metric.statistics.delaunay, within_rounding = CE::Delaunay_property::WITHIN_ROUNDING,
+                              yes = is_tie && delaunay == within_rounding ? within_rounding : CE::Delaunay_property::EXACT;
+  BOOST_TEST((delaunay == (is_asked ? yes : CE::Delaunay_property::NOT_ASKED)));
   return metric;
 }
 
@@ -83,7 +87,7 @@ CE::Layout<double> checked_layout(const Triangulation& t, const Metric& metric, 
   {
     const Complex p = complex(layout.corner[t.previous(h)]), q = complex(layout.corner[h]);
     const double length = metric.is_retriangulated() ? layout.straight_lengths[t.edge(h)] : metric.scaled_length(h);
-    BOOST_TEST(std::abs(std::abs(q - p) - length) <= 16 * unit + 1e-12 * length);
+    BOOST_TEST(std::abs(std::abs(q - p) - length) <= 16 * unit + few_roundings * length);
   }
   for(const auto& motion : layout.transitions)
   {
@@ -106,7 +110,7 @@ CE::Layout<double> checked_layout(const Triangulation& t, const Metric& metric, 
     is_cone[v] = 1;
   for(Index v = 0; v < t.number_of_vertices(); ++v)
     if(!t.is_isolated_vertex(v) && !t.is_border_vertex(v) && !is_cone[v])
-      BOOST_TEST(std::abs(std::remainder(turned[v], 2 * pi)) <= 1e-10 + 64 * unit / shortest[v]);
+      BOOST_TEST(std::abs(std::remainder(turned[v], 2 * pi)) <= layout_angle + 64 * unit / shortest[v]);
   return layout;
 }
 
@@ -231,20 +235,20 @@ BOOST_AUTO_TEST_CASE(energy_across_flips)
         integral[v] += d[v] * (k == 0 || k == steps ? 1 : k % 2 == 1 ? 4 : 2) / (3. * steps);
     }
     for(Index v = 0; v < n; ++v)
-      BOOST_TEST(std::abs(last[v] - first[v] - integral[v]) <= 1e-5);
+      BOOST_TEST(std::abs(last[v] - first[v] - integral[v]) <= 1000 / (12. * steps * steps)); // h^2 / 12 times the jumps, of 1000 in all
 
     const double h = 1e-5;
     for(double x : { .1, .35, .7 })
     {
       const std::vector<double> d = derivative(x), right = at(x + h), left = at(x - h);
       for(Index v = 0; v < n; ++v)
-        BOOST_TEST(std::abs((right[v] - left[v]) / (2 * h) - d[v]) <= 1e-5 * (1 + std::abs(d[v])));
+        BOOST_TEST(std::abs((right[v] - left[v]) / (2 * h) - d[v]) <= h * (1 + std::abs(d[v]))); // where a jump lies between
       // and back: the triangulation at a point does not depend on the way
       const std::vector<double> again = at(x);
       at(0);
       const std::vector<double> once_more = at(x);
       for(Index v = 0; v < n; ++v)
-        BOOST_TEST(std::abs(again[v] - once_more[v]) <= 1e-11);
+        BOOST_TEST(std::abs(again[v] - once_more[v]) <= 1000 * few_roundings); // lengths are rounded by flips, and angles of needles move farther
     }
   }
 }
@@ -410,7 +414,8 @@ BOOST_AUTO_TEST_CASE(torus_with_one_vertex_after_flips)
     const Metric metric = solved(t, Conditions(t), Retriangulation::WHEN_NEEDED);
     const CE::Layout<double> layout = checked_layout(t, metric, {});
     BOOST_TEST_REQUIRE(layout.lattices.size() == 1u);
-    BOOST_TEST(std::abs(complex(layout.lattices[0].tau) - complex(expected.lattices[0].tau)) <= 1e-11);
+    // six flips, each of which may lengthen an edge
+    BOOST_TEST(std::abs(complex(layout.lattices[0].tau) - complex(expected.lattices[0].tau)) <= 10 * solved_u);
   }
 }
 
@@ -465,7 +470,7 @@ BOOST_AUTO_TEST_CASE(diagonals_of_planar_quads)
     if(seed == 0)
       expected = metric.log_scale_factors;
     for(Index v = 0; v < t.number_of_vertices(); ++v)
-      BOOST_TEST(std::abs(metric.log_scale_factors[v] - expected[v]) <= 1e-10);
+      BOOST_TEST(std::abs(metric.log_scale_factors[v] - expected[v]) <= solved_u);
   }
 }
 
@@ -510,9 +515,9 @@ BOOST_AUTO_TEST_CASE(diagonals_of_a_disk_of_parallelograms)
     }
     for(Index v = 0; v < t.number_of_vertices(); ++v)
     {
-      BOOST_TEST(std::abs(metric.log_scale_factors[v] - expected[v]) <= 1e-10);
+      BOOST_TEST(std::abs(metric.log_scale_factors[v] - expected[v]) <= solved_u);
       const double length = std::abs(points[v] - points[0]), expected_length = std::abs(expected_points[v] - expected_points[0]);
-      BOOST_TEST(std::abs(length - expected_length) <= 1e-10 * n);
+      BOOST_TEST(std::abs(length - expected_length) <= solved_u * n); // across up to n parallelograms
       differing += std::abs(given.log_scale_factors[v] - expected[v]) > 1e-4;
     }
   }
@@ -543,7 +548,7 @@ BOOST_AUTO_TEST_CASE(double_of_a_surface)
     const Conditions conditions(t);
     const Metric one = solved(t, conditions, Retriangulation::NEVER), two = solved(d, twofold.conditions(conditions), Retriangulation::NEVER);
     for(Index v = 0; v < t.number_of_vertices(); ++v)
-      BOOST_TEST(std::abs(one.log_scale_factors[v] - two.log_scale_factors[v]) <= 1e-12);
+      BOOST_TEST(std::abs(one.log_scale_factors[v] - two.log_scale_factors[v]) <= solved_u);
   }
 }
 
@@ -578,7 +583,7 @@ void check_border_edges(const Triangulation& t, const Conditions& conditions, co
       continue;
     const double length = std::abs(complex(layout.corner[h]) - complex(layout.corner[t.previous(h)]));
     const double said = t.halfedge_length(h) * std::exp((metric.log_scale_factors[t.origin(h)] + metric.log_scale_factors[t.target(h)]) / 2);
-    BOOST_TEST((std::abs(length - said) <= 1e-11 * said) == !is_lost[t.edge(h)]);
+    BOOST_TEST((std::abs(length - said) <= few_roundings * (said + diameter(layout.corner))) == !is_lost[t.edge(h)]);
   }
 }
 
@@ -614,7 +619,7 @@ BOOST_AUTO_TEST_CASE(borders_that_need_the_double)
       Complex sum = 0;
       for(const Complex& z : side)
         sum += z;
-      BOOST_TEST(std::abs(sum) <= 1e-12 * std::abs(side[0]));
+      BOOST_TEST(std::abs(sum) <= few_roundings * double(side.size()) * diameter(layout.corner));
     }
   }
   BOOST_TEST(doubled > 0u);
@@ -740,7 +745,7 @@ BOOST_AUTO_TEST_CASE(matrix_of_the_folded_double)
       double size = 0;
       for(double x : w)
         size = (std::max)(size, std::abs(x));
-      const double tolerance = 1e-13 * size;
+      const double tolerance = 100 * few_roundings * size; // a hundred products
       for(Index v = 0; v < n; ++v)
       {
         std::vector<double> x(n, 0);
@@ -758,7 +763,7 @@ BOOST_AUTO_TEST_CASE(matrix_of_the_folded_double)
       }
       const std::vector<double> sums = folded.fold(on_double.angle_sums());
       for(Index v = 0; times == 0 && v < n; ++v)
-        BOOST_TEST(std::abs(sums[v] - on_surface.angle_sums()[v]) <= 1e-13);
+        BOOST_TEST(std::abs(sums[v] - on_surface.angle_sums()[v]) <= 100 * unit_roundoff * 2 * pi); // of up to a hundred angles
     }
     BOOST_TEST(flips > 100u);
     BOOST_TEST(folded.number_of_edges() > t.number_of_edges() + t.number_of_edges() / 2);
@@ -778,7 +783,7 @@ BOOST_AUTO_TEST_CASE(symmetry_on_the_double)
         const Index n = p.t.number_of_vertices();
         const Metric metric = CE::compute_conformal_metric(p.t, p.conditions, params::retriangulation(mode).newton_strategy(strategy));
         BOOST_TEST_REQUIRE(bool(metric), CE::message(metric.status));
-        BOOST_TEST(metric.statistics.residual <= (std::max)(1e-12, metric.statistics.residual_floor));
+        BOOST_TEST(metric.statistics.residual <= (std::max)(solver_tolerance, metric.statistics.residual_floor));
         if(!metric.is_doubled)
           continue;
         ++doubled;
@@ -788,7 +793,7 @@ BOOST_AUTO_TEST_CASE(symmetry_on_the_double)
         BOOST_TEST_REQUIRE(metric.log_scale_factors.size() == n);
         BOOST_TEST_REQUIRE(metric.scale_factors.size() == twofold.triangulation.number_of_vertices());
         const std::vector<double> residual = CE::internal::wide_residual(metric.triangulation, metric.scale_factors, conditions);
-        const double rounding = 4e-15 + metric.statistics.angle_defect_spread; // of the angles given, which are made to fit
+        const double rounding = 4 * few_roundings + metric.statistics.angle_defect_spread; // of the angles given, which are made to fit
         double sum = 0;
         bool is_scaled = false;
         for(Index v = 0; v < n; ++v)
@@ -802,7 +807,7 @@ BOOST_AUTO_TEST_CASE(symmetry_on_the_double)
           is_scaled = is_scaled || p.conditions.is_fixed(v);
         }
         if(!is_scaled)
-          BOOST_TEST(std::abs(sum) <= 1e-12 * n);
+          BOOST_TEST(std::abs(sum) <= solved_u * n);
 
         const Metric literal = CE::compute_conformal_metric(twofold.triangulation, conditions, params::retriangulation(mode));
         BOOST_TEST_REQUIRE(bool(literal), CE::message(literal.status));
@@ -817,7 +822,7 @@ BOOST_AUTO_TEST_CASE(symmetry_on_the_double)
           if(!is_known[c])
             shift[c] = is_scaled && pieces.components[c].number_of_borders > 0 ? 0 : difference;
           is_known[c] = 1;
-          BOOST_TEST(std::abs(difference - shift[c]) <= 1e-11);
+          BOOST_TEST(std::abs(difference - shift[c]) <= 2 * solved_u);
         }
       }
   BOOST_TEST(doubled >= 10u);
@@ -843,6 +848,7 @@ BOOST_AUTO_TEST_CASE(wide_steps_on_the_folded_double)
   std::vector<CE::internal::Double_double> s(metric.scale_factors.begin(), metric.scale_factors.begin() + n);
   for(Index v = 1; v < n; ++v)
     s[v] = s[v] * (1 + 1e-5 * std::sin(double(v)));
+  const double rounding = 1e-27; // of pairs of `double`, 2^-104, times the ratio of the longest edge to the shortest
   double size = 1;
   for(int step = 0; step < 5; ++step)
   {
@@ -853,9 +859,9 @@ BOOST_AUTO_TEST_CASE(wide_steps_on_the_folded_double)
     for(Index v = 1; v < n; ++v) // what the angles miss Gauss and Bonnet's formula by is left at the vertex held
       size = (std::max)(size, std::abs(residual[v]));
     if(step > 0)
-      BOOST_TEST(size <= (std::max)(1e-27, 1e6 * before * before));
+      BOOST_TEST(size <= (std::max)(rounding, 1e6 * before * before)); // quadratic convergence
   }
-  BOOST_TEST(size <= 1e-27);
+  BOOST_TEST(size <= rounding);
 }
 
 // One solver, conditions that need the double and such that do not: each result is that of a new solver.
@@ -873,7 +879,7 @@ BOOST_AUTO_TEST_CASE(again_after_the_double)
     BOOST_TEST(metric.is_doubled == fresh.is_doubled);
     BOOST_TEST(metric.lost_border_edges == fresh.lost_border_edges);
     for(Index v = 0; v < t.number_of_vertices(); ++v)
-      BOOST_TEST(std::abs(metric.log_scale_factors[v] - fresh.log_scale_factors[v]) <= 1e-11);
+      BOOST_TEST(std::abs(metric.log_scale_factors[v] - fresh.log_scale_factors[v]) <= 2 * solved_u);
     doubled += metric.is_doubled;
   }
   BOOST_TEST(doubled >= 2u);
@@ -927,7 +933,7 @@ BOOST_AUTO_TEST_CASE(disks_that_need_flips, * needs_mesh("cylinder_locally_refin
       const Flattened m(read_mesh(name), Retriangulation::WHEN_NEEDED);
       BOOST_TEST_REQUIRE(bool(m.report), CE::message(m.report));
       BOOST_TEST(m.report.statistics.number_of_flips > 0u);
-      BOOST_TEST(m.report.statistics.residual <= 1e-12);
+      BOOST_TEST(m.report.statistics.residual <= solver_tolerance);
       std::set<Face> flat; // of no area from the beginning: images of segments
       for(Index f : CE::internal::degenerate_faces(CE::import_mesh(m.sm).triangulation))
         flat.insert(Face(f));
@@ -944,12 +950,12 @@ BOOST_AUTO_TEST_CASE(disks_that_need_flips, * needs_mesh("cylinder_locally_refin
           for(Vertex v : vertices_around_face(h, m.sm))
             around_flat_faces.insert(v);
       }
-      const double tolerance = (std::max)(1e-12, 16 * rounding_of_lengths(m.sm, m.uv));
+      const double tolerance = (std::max)(few_roundings, 16 * rounding_of_lengths(m.sm, m.uv));
       for(Halfedge h : halfedges(m.sm))
         if(!is_border(h, m.sm))
           BOOST_TEST(std::abs(uv_length(m.sm, m.uv, h) / m.scaled[edge(h, m.sm)] - 1) <= tolerance);
       for(Vertex v : vertices(m.sm)) // with positive triangles around them, all vertices inside are flat
         if(!m.sm.is_isolated(v) && !CGAL::is_border(v, m.sm) && around_flat_faces.count(v) == 0)
-          BOOST_TEST(std::abs(uv_angle_sum(m.sm, m.uv, v) - 2 * pi) <= 1e-9);
+          BOOST_TEST(std::abs(uv_angle_sum(m.sm, m.uv, v) - 2 * pi) <= 100 * layout_angle); // edges are up to a hundred times shorter than others
     }
 }

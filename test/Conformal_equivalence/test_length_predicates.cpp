@@ -302,7 +302,8 @@ BOOST_AUTO_TEST_CASE(exact_number_is_exact)
 BOOST_AUTO_TEST_CASE(exact_numbers_against_rationals)
 {
   using CEi::Exact_number;
-  const auto same = [](const Exact_number& x, const Rational& r) { return quotient(x, Exact_number(1)) == 0 ? r == 0 : x.sign() == (r > 0 ? 1 : -1); };
+  const auto same = [](const Exact_number& x, const Rational& r)
+    { return quotient(x, Exact_number(1)) == 0 ? r == 0 : x.sign() == (r > 0 ? 1 : -1); };
   for(int i = 0; i < 2000; ++i)
   {
     const double a = i % 7 == 0 ? 0. : random_with_exponent(500) * (i % 2 == 0 ? 1 : -1), b = i % 11 == 0 ? 0. : random_with_exponent(500),

@@ -74,7 +74,7 @@ public:
         if(t_.is_border(side) || cut_[t_.edge(side)] || is_laid_out[t_.face(t_.twin(side))])
           continue;
         is_laid_out[t_.face(t_.twin(side))] = 1;
-        queue.emplace(t_.twin(side), Complex{-direction[k].re, -direction[k].im});
+        queue.emplace(t_.twin(side), -direction[k]);
       }
     }
   }
@@ -100,10 +100,10 @@ private:
     const Complex at_origin = rotation(triangle, 1), at_target = rotation(triangle, 2);
 
     const Complex to_apex = direction * at_origin;
-    const Complex along_next = direction * Complex{-at_target.re, at_target.im};
+    const Complex along_next = direction * -conj(at_target);
     const Complex& origin = position[origin_wedge(h)];
-    place(wedges_.of_corner[next], Complex{origin.re + length * to_apex.re, origin.im + length * to_apex.im});
-    return {{direction, along_next, Complex{-to_apex.re, -to_apex.im}}};
+    place(wedges_.of_corner[next], origin + length * to_apex);
+    return {{direction, along_next, -to_apex}};
   }
 
   const Metric& metric_;

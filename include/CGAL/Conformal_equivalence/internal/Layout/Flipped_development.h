@@ -77,15 +77,14 @@ public:
       {
         const Complex& p = corner[k];
         const Complex& q = corner[(k + 1) % 3];
-        const Complex moved = frame * q;
-        place(wedges_.of_corner[side], Complex{origin.re + moved.re, origin.im + moved.im});
+        place(wedges_.of_corner[side], origin + frame * q);
         if(input_.is_border(side) || cut_[input_.edge(side)] || is_laid_out[input_.face(input_.twin(side))])
           continue;
         const Index g = input_.twin(side);
         is_laid_out[input_.face(g)] = 1;
         // g runs from q to p; its own vector has this direction
-        const Complex back = frame * unit(Complex{p.re - q.re, p.im - q.im}), own = unit(vectors_[g].to_target);
-        queue.emplace(g, unit(back * Complex{own.re, -own.im}));
+        const Complex back = frame * unit(p - q), own = unit(vectors_[g].to_target);
+        queue.emplace(g, unit(back * conj(own)));
       }
     }
   }

@@ -61,8 +61,7 @@ public:
   {
     if(side != t_.next(h_))
       return {{apex_, origin_}};
-    const Wide l = metric_.wide_scaled_length(h_);
-    return {{Complex{origin_.re + l * direction_.re, origin_.im + l * direction_.im}, apex_}};
+    return {{origin_ + metric_.wide_scaled_length(h_) * direction_, apex_}};
   }
 
   // Leaves the last triangle across `side`, and lays out the one behind it.
@@ -70,14 +69,10 @@ public:
   {
     const std::array<Complex, 2> end = ends(side);
     if(side == t_.next(h_))
-    {
-      const Complex at_target = turn_at_origin(metric_, side);
-      direction_ = direction_ * Complex{at_target.re, -at_target.im};
-    }
+      direction_ = direction_ * conj(turn_at_origin(metric_, side));
     else
       direction_ = direction_ * turn_at_origin(metric_, h_);
-    const Wide l = metric_.wide_scaled_length(side);
-    origin_ = measures_sides_ ? Complex{end[0].re - l * direction_.re, end[0].im - l * direction_.im} : end[1];
+    origin_ = measures_sides_ ? end[0] - metric_.wide_scaled_length(side) * direction_ : end[1];
     h_ = t_.twin(side);
     lay_out_apex();
   }
@@ -86,8 +81,7 @@ private:
   void lay_out_apex()
   {
     const Complex to_apex = direction_ * turn_at_origin(metric_, h_);
-    const Wide l = metric_.wide_scaled_length(t_.previous(h_));
-    apex_ = {origin_.re + l * to_apex.re, origin_.im + l * to_apex.im};
+    apex_ = origin_ + metric_.wide_scaled_length(t_.previous(h_)) * to_apex;
   }
 
   const Metric& metric_;

@@ -38,15 +38,13 @@ find_motion(const Intrinsic_triangulation<NT>& t, const Wedges& wedges, const st
   const std::uint32_t g = t.twin(h);
   const auto corner = [&](std::uint32_t i) -> const Complex& { return development.position[wedges.of_corner[i]]; };
   const Complex &p = corner(t.previous(h)), &q = corner(h), &p2 = corner(g), &q2 = corner(t.previous(g));
-  const double length = size_of(Complex{Wide(q.re - p.re), Wide(q.im - p.im)});
-  const Complex side{Wide((q.re - p.re) / length), Wide((q.im - p.im) / length)},
-                side2{Wide((q2.re - p2.re) / length), Wide((q2.im - p2.im) / length)};
-  Complex r = quotient(side2, side);
-  const Wide size = sqrt(Wide(r.re * r.re + r.im * r.im));
+  const Complex edge = q - p, edge2 = q2 - p2;
+  const double length = size_of(edge);
+  const Complex side{Wide(edge.re / length), Wide(edge.im / length)}, side2{Wide(edge2.re / length), Wide(edge2.im / length)};
+  Complex r = side2 / side;
+  const Wide size = sqrt(square_norm(r));
   r = {Wide(r.re / size), Wide(r.im / size)};
-  const Complex moved = r * p;
-  return {piece_of_face[t.face(h)], piece_of_face[t.face(g)], r,
-          Complex{Wide(p2.re - moved.re), Wide(p2.im - moved.im)}, length};
+  return {piece_of_face[t.face(h)], piece_of_face[t.face(g)], r, p2 - r * p, length};
 }
 
 // The pieces of each component by themselves, so that work on one component is no work on all of them.
@@ -105,7 +103,7 @@ void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut
       continue;
     const auto periods = basis.standard_basis();
     layout.lattices.push_back({first, {{rounded(periods.first), rounded(periods.second)}},
-                               rounded(quotient(periods.second, periods.first))});
+                               rounded(periods.second / periods.first)});
   }
 }
 

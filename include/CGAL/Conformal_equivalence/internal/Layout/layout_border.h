@@ -7,6 +7,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LAYOUT_LAYOUT_BORDER_H
 
 #include <CGAL/Conformal_equivalence/internal/Layout/Cover_sweep.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
@@ -16,7 +17,6 @@
 #include <boost/property_map/property_map.hpp>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -24,19 +24,13 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-typedef std::array<Plane_point, 3> Plane_triangle;
-
-inline bool is_finite(const Plane_point& p)
-{
-  return std::isfinite(p.x()) && std::isfinite(p.y());
-}
-
 // The orientation, COLLINEAR also if some coordinate is not a finite number.
-inline Orientation triangle_orientation(const Plane_triangle& t)
+inline Orientation triangle_orientation(const std::array<Plane_point, 3>& t)
 {
-  if(!is_finite(t[0]) || !is_finite(t[1]) || !is_finite(t[2]))
-    return COLLINEAR;
-  return orientation(t[0], t[1], t[2]);
+  std::array<std::array<double, 2>, 3> p;
+  for(std::size_t i = 0; i < 3; ++i)
+    p[i] = {{ t[i].x(), t[i].y() }};
+  return has_finite_coordinates(p[0]) && has_finite_coordinates(p[1]) && has_finite_coordinates(p[2]) ? turn(p[0], p[1], p[2]) : COLLINEAR;
 }
 
 template <typename HalfedgeUVMap, typename Halfedge>
@@ -85,7 +79,7 @@ Layout_reading<TriangleMesh> read_layout(const TriangleMesh& tm, HalfedgeUVMap u
       continue;
     }
     const std::array<decltype(next(h0, tm)), 3> h = {{ h0, h1, h2 }};
-    const Plane_triangle t = {{ plane_point(uv, h0), plane_point(uv, h1), plane_point(uv, h2) }};
+    const std::array<Plane_point, 3> t = {{ plane_point(uv, h0), plane_point(uv, h1), plane_point(uv, h2) }};
     const Orientation o = triangle_orientation(t);
     if(o == RIGHT_TURN)
       result.flipped_faces.push_back(f);

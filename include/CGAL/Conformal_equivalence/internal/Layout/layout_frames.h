@@ -49,12 +49,9 @@ template <typename Wide>
 void apply_similarity(const Complex_number<Wide>& a, const Double_point& center, const Double_point& b,
                       const Piece& piece, std::vector<Complex_number<Wide> >& position)
 {
+  const Complex_number<Wide> from{Wide(center[0]), Wide(center[1])}, to{Wide(b[0]), Wide(b[1])};
   for(std::uint32_t w : piece.wedges)
-  {
-    Complex_number<Wide>& z = position[w];
-    z = a * Complex_number<Wide>{z.re - Wide(center[0]), z.im - Wide(center[1])};
-    z = {z.re + Wide(b[0]), z.im + Wide(b[1])};
-  }
+    position[w] = a * (position[w] - from) + to;
 }
 
 // A power of two of the size of the largest coordinate of a piece.
@@ -343,14 +340,11 @@ NT move_to_frame(const Intrinsic_triangulation<NT>& t, const std::vector<std::ui
   if(!(square > 0))
     return NT(1);
   const Complex_number<Wide> a{(dx * x + dy * y) / square, (dy * x - dx * y) / square};
+  const Complex_number<Wide> to{Wide(frame.first_point[0]), Wide(frame.first_point[1])};
   for(const Piece& piece : pieces)
     for(std::uint32_t w : piece.wedges)
-    {
-      Complex_number<Wide>& z = position[w];
-      z = a * Complex_number<Wide>{z.re - first.re, z.im - first.im};
-      z = {z.re + Wide(frame.first_point[0]), z.im + Wide(frame.first_point[1])};
-    }
-  return static_cast<NT>(sqrt(Wide(a.re * a.re + a.im * a.im)));
+      position[w] = a * (position[w] - first) + to;
+  return static_cast<NT>(sqrt(square_norm(a)));
 }
 
 template <typename NT, typename Wide>

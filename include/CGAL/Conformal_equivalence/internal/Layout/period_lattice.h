@@ -34,20 +34,16 @@ struct Cut_motion
 
   Complex operator()(const Complex& z) const
   {
-    const Complex r = rotation * z;
-    return {r.re + translation.re, r.im + translation.im};
+    return rotation * z + translation;
   }
   Cut_motion inverse() const
   {
-    const Complex r{rotation.re, -rotation.im}, t = r * translation;
-    return {to_piece, from_piece, r, Complex{-t.re, -t.im}, length};
+    const Complex r = conj(rotation);
+    return {to_piece, from_piece, r, -(r * translation), length};
   }
   // first `b`, then this
   Cut_motion after(const Cut_motion& b) const { return {b.from_piece, to_piece, rotation * b.rotation, (*this)(b.translation), length}; }
 };
-
-template <typename NT>
-double size_of(const Complex_number<NT>& z) { return std::hypot(static_cast<double>(z.re), static_cast<double>(z.im)); }
 
 // Reductions end by themselves, as numbers become smaller; rounding must not make them go round in circles. A pair of `double` of any
 // size whatever is reduced in some hundred steps.
@@ -72,8 +68,6 @@ class Reduced_basis
   std::vector<Complex> basis_; // at most two, reduced
   double error_;
 
-  static NT product(const Complex& a, const Complex& b) { return a.re * b.re + a.im * b.im; }
-  static NT cross(const Complex& a, const Complex& b) { return a.re * b.im - a.im * b.re; }
   static Complex minus(const Complex& a, const Complex& b, double times) { return {a.re - times * b.re, a.im - times * b.im}; }
 
   // Subtracts the vector of the lattice that is nearest, or nearly so.
@@ -81,18 +75,19 @@ class Reduced_basis
   {
     if(basis_.size() == 2)
     {
-      const NT area = cross(basis_[0], basis_[1]);
-      const double x = static_cast<double>(NT(cross(z, basis_[1]) / area)), y = static_cast<double>(NT(cross(basis_[0], z) / area));
+      const NT area = cross_product(basis_[0], basis_[1]);
+      const double x = static_cast<double>(NT(cross_product(z, basis_[1]) / area));
+      const double y = static_cast<double>(NT(cross_product(basis_[0], z) / area));
       z = minus(minus(z, basis_[0], std::round(x)), basis_[1], std::round(y));
     }
     else if(basis_.size() == 1)
-      z = minus(z, basis_[0], std::round(static_cast<double>(NT(product(z, basis_[0]) / product(basis_[0], basis_[0])))));
+      z = minus(z, basis_[0], std::round(static_cast<double>(NT(dot_product(z, basis_[0]) / square_norm(basis_[0])))));
     return z;
   }
 
   bool are_independent(const Complex& a, const Complex& b) const
   {
-    return std::abs(static_cast<double>(cross(a, b))) > error_ * (std::max)(size_of(a), size_of(b));
+    return std::abs(static_cast<double>(cross_product(a, b))) > error_ * (std::max)(size_of(a), size_of(b));
   }
 
   // Lagrange and Gauss: the shorter one first, the other as short as it can be.
@@ -102,7 +97,7 @@ class Reduced_basis
     {
       if(size_of(basis_[1]) < size_of(basis_[0]))
         std::swap(basis_[0], basis_[1]);
-      const double times = std::round(static_cast<double>(NT(product(basis_[0], basis_[1]) / product(basis_[0], basis_[0]))));
+      const double times = std::round(static_cast<double>(NT(dot_product(basis_[0], basis_[1]) / square_norm(basis_[0]))));
       if(times == 0)
         break;
       basis_[1] = minus(basis_[1], basis_[0], times);
@@ -141,27 +136,20 @@ public:
   std::pair<Complex, Complex> standard_basis() const
   {
     Complex a = basis_[0], b = basis_[1];
-    if(cross(a, b) < NT(0))
-      b = {-b.re, -b.im};
+    if(cross_product(a, b) < NT(0))
+      b = -b;
     const double boundary = fundamental_domain_tolerance;
-    const auto re_tau = [&] { return static_cast<double>(NT(product(a, b) / product(a, a))); };
+    const auto re_tau = [&] { return static_cast<double>(NT(dot_product(a, b) / square_norm(a))); };
     if(re_tau() < -.5 + boundary)
       b = minus(b, a, -1);
     if(size_of(b) < (1 + boundary) * size_of(a) && re_tau() < -boundary)
     {
       std::swap(a, b);
-      b = {-b.re, -b.im};
+      b = -b;
     }
     return {a, b};
   }
 };
-
-template <typename NT>
-Complex_number<NT> quotient(const Complex_number<NT>& a, const Complex_number<NT>& b)
-{
-  const NT square = b.re * b.re + b.im * b.im;
-  return {NT((a.re * b.re + a.im * b.im) / square), NT((a.im * b.re - a.re * b.im) / square)};
-}
 
 // The lattice that the motions across the cut edges of one torus generate; nothing if it has cones. `first_piece` is
 // the one whose coordinates count.

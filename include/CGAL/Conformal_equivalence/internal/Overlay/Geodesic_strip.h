@@ -158,10 +158,9 @@ private:
                at_t = weights_[t_.target(halfedge)] * (longer / (jt / io + it / jo));
     result.weight = at_o + at_t;
     const Wide s = at_t / result.weight, r = at_o / result.weight;
-    const Complex &zo = side.position[0], &zt = side.position[1];
     const double size = size_of(target_); // without over- and underflow of squares
-    result.ratio = quotient(Complex{(r * zo.re + s * zt.re) / size, (r * zo.im + s * zt.im) / size},
-                            Complex{target_.re / size, target_.im / size});
+    const Complex z = r * side.position[0] + s * side.position[1];
+    result.ratio = Complex{z.re / size, z.im / size} / Complex{target_.re / size, target_.im / size};
     return result;
   }
 

@@ -73,8 +73,7 @@ public:
   {
     const bool is_first = side == input_->edge_halfedge(x.input_edge);
     const Complex &p = is_first ? origin(side) : target(side), &q = is_first ? target(side) : origin(side);
-    const Complex moved = x.ratio * Complex{Wide(q.re - p.re), Wide(q.im - p.im)};
-    return {p.re + moved.re, p.im + moved.im};
+    return p + x.ratio * (q - p);
   }
 
 private:

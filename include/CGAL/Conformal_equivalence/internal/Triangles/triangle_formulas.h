@@ -18,9 +18,10 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_TRIANGLE_FORMULAS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_TRIANGLES_TRIANGLE_FORMULAS_H
 
+#include <CGAL/Conformal_equivalence/internal/Numbers/Complex_number.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
-
-#include <boost/math/constants/constants.hpp>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Number_constants.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Angle_sum.h>
 
 #include <algorithm>
 #include <array>
@@ -30,18 +31,6 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-template <typename NT>
-struct Number_constants
-{
-  static NT pi() { return boost::math::constants::pi<NT>(); }
-};
-
-template <>
-struct Number_constants<Double_double>
-{
-  static Double_double pi() { return quick_two_sum(3.141592653589793116, 1.2246467991473531772e-16); }
-};
 
 // b + c - a, in an order in which only one rounding is left wherever the result
 // is small (W. Kahan, "Miscalculating area and angles of a needle-like triangle").
@@ -135,63 +124,6 @@ Triangle_angles<NT> triangle_angles(const NT& a, const NT& b, const NT& c)
   return result;
 }
 
-// A complex number; unlike std::complex defined for every number type.
-template <typename NT>
-struct Complex_number
-{
-  NT re, im;
-  friend Complex_number operator*(const Complex_number& x, const Complex_number& y)
-  {
-    return {x.re * y.re - x.im * y.im, x.re * y.im + x.im * y.re};
-  }
-};
-
-// A sum of triangle corners, as the product of their half angles: one arc tangent at
-// the end instead of one for each. Every factor turns by less than pi / 2, so the
-// half turns can be counted.
-template <typename NT>
-class Angle_sum
-{
-public:
-  // adds the angle alpha, given by (x, y) = const * (cos alpha/2, sin alpha/2) with
-  // 0 < alpha < pi. The constant should not be far above 1.
-  void add(const NT& x, const NT& y)
-  {
-    z_ = z_ * Complex_number<NT>{x, y};
-    if(z_.im < 0 || (z_.im == 0 && z_.re < 0))
-    {
-      z_ = {-z_.re, -z_.im};
-      ++half_turns_;
-    }
-    const NT size = (z_.re < 0 ? NT(-z_.re) : z_.re) + z_.im;
-    if(size < tiny())
-      z_ = {z_.re / size, z_.im / size};
-  }
-
-  // adds the angle pi of a broken triangle
-  void add_straight()
-  {
-    z_ = {-z_.im, z_.re};
-    if(z_.im < 0 || (z_.im == 0 && z_.re < 0))
-    {
-      z_ = {-z_.re, -z_.im};
-      ++half_turns_;
-    }
-  }
-
-  NT radians() const
-  {
-    using std::atan2;
-    return 2 * (half_turns_ * Number_constants<NT>::pi() + atan2(z_.im, z_.re));
-  }
-
-private:
-  static NT tiny() { return NT(1e-30); }
-
-  Complex_number<NT> z_{NT(1), NT(0)};
-  int half_turns_ = 0;
-};
-
 // e^{i alpha}, the square of (s - a) + i r, divided by its absolute value.
 template <typename NT>
 Complex_number<NT> rotation(const Incircle_form<NT>& t, int side)
@@ -201,26 +133,6 @@ Complex_number<NT> rotation(const Incircle_form<NT>& t, int side)
   const NT d = 1 + q * q;
   const NT cosine = (1 - q * q) / d, sine = 2 * q / d;
   return {x < y ? NT(-cosine) : cosine, sine};
-}
-
-// e^{i x}, by the Taylor series at x / 2^10 and ten squarings, which cost ten bits;
-// for finite |x| < 1000 or so.
-template <typename NT>
-Complex_number<NT> unit_complex(const NT& x)
-{
-  const NT z = x / 1024;
-  Complex_number<NT> term{NT(1), NT(0)}, sum = term;
-  for(int n = 1; ; ++n)
-  {
-    term = {-term.im * z / n, term.re * z / n};
-    const Complex_number<NT> longer{sum.re + term.re, sum.im + term.im};
-    if(longer.re == sum.re && longer.im == sum.im)
-      break;
-    sum = longer;
-  }
-  for(int k = 0; k < 10; ++k)
-    sum = sum * sum;
-  return sum;
 }
 
 } // namespace internal
