@@ -217,7 +217,8 @@ inline std::vector<std::string> cone_arguments(const Input& input, const Folder&
 
 // Where to, and what is done to the surface before.
 enum Way { PLANE, SPHERE, SPHERE_OF_AREAS, SPHERE_BY_VERTEX, SPHERE_WITH_DIGITS, DISK, DISK_OF_AREAS, DISK_BY_VERTEX, DISK_AROUND_VERTEX,
-           DISK_OF_POINTS, DISK_WITH_DIGITS, DIGITS, KEPT_BORDER, LOCAL_REPAIR, MOLLIFICATION, REPAIR, REPAIR_TO_SPHERE, REPAIR_TO_DISK, NUMBER_OF_WAYS };
+           DISK_OF_POINTS, DISK_WITH_DIGITS, DIGITS, KEPT_BORDER, LOCAL_REPAIR, MOLLIFICATION, REPAIR, REPAIR_TO_SPHERE, REPAIR_TO_DISK,
+           NUMBER_OF_WAYS };
 
 inline Way way(const Input& input) { return Way(input.choices[WAY] % NUMBER_OF_WAYS); }
 
@@ -756,7 +757,8 @@ inline std::string as_strips(const Soup& soup)
   std::ostringstream out;
   out.precision(17);
   out << "ply\rformat ascii 1.0\relement tristrips 1\rproperty list int int vertex_indices\relement edge 1\rproperty list uchar float a\r"
-         "element vertex " << soup.points.size() << "\rproperty float x\rproperty double y\rproperty list uchar uchar b\rproperty double z\rend_header\r"
+         "element vertex " << soup.points.size() << "\rproperty float x\rproperty double y\r"
+         "property list uchar uchar b\rproperty double z\rend_header\r"
       << 4 * soup.triangles.size();
   for(const auto& t : soup.triangles)
     out << ' ' << t[0] << ' ' << t[1] << ' ' << t[2] << " -1";

@@ -869,7 +869,8 @@ BOOST_AUTO_TEST_CASE(every_status_has_a_text_and_an_error_code)
     Status::OK, Status::CONVERGED_TO_ROUNDING, Status::EMPTY_MESH, Status::NOT_TRIANGULATED, Status::NON_MANIFOLD,
     Status::INVALID_NUMBER, Status::ZERO_LENGTH_EDGE, Status::WRONG_TOPOLOGY, Status::GAUSS_BONNET_VIOLATED,
     Status::NO_ANGLE_LEFT, Status::ANGLE_OUT_OF_RANGE, Status::MISSING_CONDITION, Status::SINGULAR_PROBLEM, Status::ITERATIONS_EXHAUSTED,
-    Status::DEGENERATE_METRIC, Status::NOT_INJECTIVE, Status::SEAM_LEAVES_NO_DISK, Status::SEAM_MISSES_CONE, Status::STOPPED_BY_VISITOR, Status::OUT_OF_MEMORY,
+    Status::DEGENERATE_METRIC, Status::NOT_INJECTIVE, Status::SEAM_LEAVES_NO_DISK, Status::SEAM_MISSES_CONE, Status::STOPPED_BY_VISITOR,
+    Status::OUT_OF_MEMORY,
     Status::TOO_MANY_CROSSINGS, Status::NOT_REPRESENTABLE, Status::TOO_MANY_CONES, Status::BOUND_NOT_MET, Status::NOT_QUANTIZABLE,
     Status::NOT_SEAMLESS };
   BOOST_TEST(CE::message(static_cast<Status>(all.size())).empty()); // these are all

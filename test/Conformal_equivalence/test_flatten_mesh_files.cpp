@@ -323,7 +323,8 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nend_header\n", "no property 'z'"},
     {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty quad x\n", "unknown type 'quad'"},
     {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float\nproperty float y\n", "line 4: a property without a name"},
-    {"a.ply", ply("element vertex 3\nproperty float x\nproperty float y\nproperty float x\nproperty float z\n", ""), "'vertex' have the property 'x' twice"},
+    {"a.ply", ply("element vertex 3\nproperty float x\nproperty float y\nproperty float x\nproperty float z\n", ""),
+     "'vertex' have the property 'x' twice"},
     {"a.ply", ply(vertices + vertices, ""), "announces the elements 'vertex' twice"},
     {"a.ply", ply(vertices + "element face 1\nproperty list uchar int corners\n", ""), "the elements 'face' have no list 'vertex_indices'"},
     {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n"), "line 14: there is more than the elements that the header announces"},
@@ -333,7 +334,8 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n-1 0 1 2\n"), "a list 'vertex_indices' of -1 values"},
     {"a.ply", ply(vertices + faces, "0 0 0\n1 0 0\n0 1 0\n2.5 0 1 2\n"), "a list 'vertex_indices' of 2.5 values"},
     {"a.ply", ply(faces + vertices, "3 0 1 3\n0 0 0\n1 0 0\n0 1 0\n"), "line 10: face 0 names the vertex 3, but there are 3 vertices"},
-    {"a.ply", ply(vertices + "element tristrips 1\nproperty list int int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 -2\n"), "face 1 names the vertex -2"},
+    {"a.ply", ply(vertices + "element tristrips 1\nproperty list int int vertex_indices\n", "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 -2\n"),
+     "face 1 names the vertex -2"},
     {"a.ply", as_binary_ply(bumpy_grid(2), true) + "\3", "there is more than the elements that the header announces"},
     {"a.ply", as_binary_ply(bumpy_grid(2), false).substr(0, 400), "is cut off"} };
   for(const Case& c : cases)
@@ -536,10 +538,13 @@ BOOST_AUTO_TEST_CASE(notices)
   BOOST_TEST(said("a.obj", square + "l 1 2\nvp 0.5\nl 2 3\n-- a line --\n") == "skipped lines: '--' (1), 'l' (2), 'vp' (1)\n");
   BOOST_TEST(said("a.obj", square.substr(0, square.size() - 8) + "f 1//1 3//1 4//2\n")
              == "skipped the normals of 1 face, where not every corner has one\n");
-  BOOST_TEST(said("a.ply", "ply\nformat ascii 1.0\nelement edge 2\nproperty int a\nproperty int b\nelement vertex 3\nproperty float x\nproperty float y\n"
-                           "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 1\n1 2\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+  BOOST_TEST(said("a.ply", "ply\nformat ascii 1.0\nelement edge 2\nproperty int a\nproperty int b\n"
+                           "element vertex 3\nproperty float x\nproperty float y\n"
+                           "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                           "0 1\n1 2\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
              == "skipped 2 elements 'edge'\n");
-  BOOST_TEST(said("a.stl", "solid\ncolor 1 0 0\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid\n") == "skipped words: 'color' (1)\n");
+  BOOST_TEST(said("a.stl", "solid\ncolor 1 0 0\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid\n")
+             == "skipped words: 'color' (1)\n");
 }
 
 namespace {
@@ -595,7 +600,8 @@ std::string as_obj_with_attributes(const Soup& soup, bool has_materials_at_once)
   out << "mtllib my colours.mtl\nmtllib a.mtl b.mtl\n";
   for(std::size_t v = 0; v < soup.points.size(); ++v)
     out << "v " << point(soup.points[v]) << "\nvn 0 " << v << " 1\n";
-  const std::map<std::size_t, std::string> lines = { {0, has_materials_at_once ? "usemtl green\n" : ""}, {1, "g one\n"}, {3, "o thing\ns 1\nusemtl red\n"},
+  const std::map<std::size_t, std::string> lines = { {0, has_materials_at_once ? "usemtl green\n" : ""}, {1, "g one\n"},
+                                                     {3, "o thing\ns 1\nusemtl red\n"},
     {5, "g two \\\n  three\n"}, {6, "usemtl light blue\ns off\n"}, {7, "g\ng four\n"} };
   for(std::size_t f = 0; f < soup.triangles.size(); ++f)
   {
@@ -678,7 +684,8 @@ BOOST_AUTO_TEST_CASE(what_is_said_of_faces_is_kept_in_other_meshes)
   {
     const std::size_t x = 1 + f % 2, y = 3 + f / 2 % 2, z = 5 + f / 4;
     const bool is_even = (f % 2 + f / 2 % 2 + f / 4) % 2 == 0;
-    closed += "g " + std::to_string(f) + "\nf " + std::to_string(x) + ' ' + std::to_string(is_even ? y : z) + ' ' + std::to_string(is_even ? z : y) + '\n';
+    closed += "g " + std::to_string(f) + "\nf " + std::to_string(x) + ' ' + std::to_string(is_even ? y : z) + ' '
+            + std::to_string(is_even ? z : y) + '\n';
   }
   closed = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n" + closed;
   BOOST_TEST(run({folder.write("closed.obj", closed), "--target", "sphere", "-o", folder / "s.obj"}).status == 0);

@@ -212,7 +212,8 @@ inline std::vector<Named_soup> bodies_with_ties(Index n, bool is_closed)
     for(const Cap cap : { Cap::CENTRE, Cap::CORNER, Cap::HALVED })
       for(const Index rings : { 1, 4 })
       {
-        const std::string kind = " with cap " + std::to_string(int(cap)) + ", height " + std::to_string(height) + ", " + std::to_string(rings) + " rings,";
+        const std::string kind = " with cap " + std::to_string(int(cap)) + ", height " + std::to_string(height) + ", "
+                               + std::to_string(rings) + " rings,";
         add("prism" + kind, prism(n, height, rings, is_closed ? cap : Cap::OPEN, cap));
         if(is_closed)
           add("cone" + kind, ring_cone(n, height, rings, cap));
