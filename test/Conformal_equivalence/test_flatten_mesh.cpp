@@ -7,6 +7,7 @@
 #include "include/boost_test.h"
 #include "include/check_flattening.h"
 #include "include/program_runs.h"
+#include "include/solids.h"
 #include "include/test_meshes.h"
 
 #include <CGAL/Conformal_equivalence/version.h>
@@ -368,6 +369,26 @@ BOOST_AUTO_TEST_CASE(many_digits)
   BOOST_TEST_REQUIRE(r.status == 0, r.err);
   BOOST_TEST(contains(r.out, "triangles too small"));
   BOOST_TEST(contains(r.out, "undecided")); // for double
+}
+
+// A planar sheet with a point on an edge of one of its triangles, and a triangle of no area beyond: it comes out as itself.
+BOOST_AUTO_TEST_CASE(faces_of_no_area)
+{
+  const Folder folder;
+  testing::Soup sheet = testing::flat_grid(4);
+  const std::size_t number = testing::divide_at_middles(sheet, 11, false);
+  const Run r = run({write_off(folder, "sheet.off", sheet), "-o", folder / "o.obj", "--report", folder / "r.json"});
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST_REQUIRE(r.status == 0, r.err);
+  const nlohmann::json report = json(folder / "r.json");
+  BOOST_TEST(report["retriangulation"]["resolving_flips"] == number);
+  BOOST_TEST(report["retriangulation"]["flips"] == number);
+  BOOST_TEST(contains(r.out, "to resolve faces of no area"));
+  BOOST_TEST(contains(r.out, "from 0 to 0")); // u
+#else
+  BOOST_TEST(r.status == 2);
+  BOOST_TEST(number > 0u);
+#endif
 }
 
 // Instead of flips on the way: edges of a copy of the mesh are flipped or split, and the copy is written.

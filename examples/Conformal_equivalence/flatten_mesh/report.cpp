@@ -167,7 +167,9 @@ Lines summary(const Options& options, const Mesh& mesh, const Figures& figures)
   lines.emplace_back("solver", text(s.number_of_iterations, " Newton steps, residual ", s.residual, " radians",
     figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? " (the limit of rounding)" : ""));
   if(s.conformal_class != CE::Conformal_class::FIXED_TRIANGULATION && s.conformal_class != CE::Conformal_class::REPAIRED)
-    lines.emplace_back("triangulation", text(class_text(s), ": ", s.number_of_flips, " flips", s.is_doubled ? ", on the double" : ""));
+    lines.emplace_back("triangulation", text(class_text(s), ": ", count(s.number_of_flips, "flip", "flips"), s.is_doubled ? ", on the double" : "",
+                                               s.number_of_resolving_flips == 0 ? "" : text(", ", s.number_of_resolving_flips,
+                                                                                            " of them to resolve faces of no area")));
   if(! figures.report.lost_border_edges.empty())
     lines.emplace_back("border edges flipped", lost_border_text(figures));
   if(figures.repair.number_of_flips + figures.repair.number_of_splits != 0)
@@ -337,7 +339,8 @@ std::string json_report(const Options& options, const Mesh& mesh, const Figures&
   json["genus"] = t.genus;
   json["borders"] = t.number_of_borders;
   json["components"] = t.number_of_components;
-  json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips}, {"doubled", s.is_doubled},
+  json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips},
+                              {"resolving_flips", s.number_of_resolving_flips}, {"doubled", s.is_doubled},
                               {"lost_border_edges", figures.report.lost_border_edges.size()},
                               {"lost_border_length_error", figures.border_length_error},
                               {"straight_cross_ratio_error", figures.cross_ratio_error} };

@@ -19,7 +19,9 @@ namespace Conformal_equivalence {
 enum class Retriangulation
 {
   NEVER,       ///< the fixed triangulation of the paper; the minimizer may be no metric
-  WHEN_NEEDED, ///< the fixed triangulation first, Ptolemy flips only if it has no solution
+  /// the fixed triangulation first, Ptolemy flips only if it has no solution. Faces of no area, which no metric has, are resolved before by
+  /// flips of their longest edges, which leave the surface as it is
+  WHEN_NEEDED,
   ALWAYS       ///< intrinsic Delaunay triangulation first: the result depends on the surface alone
 };
 
