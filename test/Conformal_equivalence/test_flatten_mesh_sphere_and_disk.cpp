@@ -464,13 +464,21 @@ BOOST_AUTO_TEST_CASE(sphere_and_disk_are_refused)
   const std::string grid = folder.write("grid.off", as_off(bumpy_grid(4))), obj = folder / "o.obj", // border: 0, 1, ..., 4, 9, ..., 24, ...
                     hill = folder.write("hill.off", as_off(hilly_rings())), sphere = write_off(folder, "sphere.off", bumpy_sphere(1)),
                     torus = write_off(folder, "torus.off", testing::torus(8, 8)), annulus = write_off(folder, "annulus.off", testing::annulus(4, 12));
-  const std::set<std::string> before = folder.files();
+  std::set<std::string> before = folder.files();
+  before.insert("spheres.off");
   const auto refused = [&](const std::string& input, const std::string& target, const std::string& reason)
     { check_refused({input, "-o", obj, "--target", target}, 1, reason); };
   refused(grid, "sphere", "found 1 component, 1 border, genus 0; --target sphere takes closed surfaces");
   refused(torus, "sphere", "found 1 component, 0 borders, genus 1");
   refused(sphere, "disk", "found 1 component, 0 borders, genus 0; --target disk takes surfaces");
   refused(annulus, "disk", "found 1 component, 2 borders, genus 0");
+
+  // in pieces: each is named by a face
+  const testing::Soup two = testing::together({testing::icosphere(1), testing::icosphere(2)});
+  const std::string spheres = write_off(folder, "spheres.off", two);
+  check_refused({spheres, "-o", obj, "--target", "sphere"}, 1, "of one component; the components have the faces 0, 80");
+  check_refused({spheres, "-o", obj, "--cones", "auto=4"}, 1, "--cones auto takes one component; the components have the faces 0, 80");
+  check_refused({spheres, "-o", obj, "--cones", "auto=4", "--seamless"}, 1, "--seamless takes one component; the components have the faces 0, 80");
 
   for(const std::string target : {"sphere", "disk"})
     for(const std::string mode : {"never", "when-needed", "always"})

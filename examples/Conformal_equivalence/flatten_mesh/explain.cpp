@@ -170,10 +170,26 @@ std::string advice_to_converge(const Options& options, const Report& report)
   return flipping.empty() && others.empty() ? "" : " (" + flipping + (flipping.empty() || others.empty() ? "" : "; ") + others + ")";
 }
 
-std::string advice_on_topology(Target target)
+// One face of each component, so that they can be told apart.
+std::string list_of_components(const Given_surface& given, const Mesh& mesh)
 {
-  return target == Target::SPHERE ? "; --target sphere takes closed surfaces of genus 0, of one component"
-       : target == Target::DISK ? "; --target disk takes surfaces of genus 0 with one border, of one component" : "";
+  const CE::Surface_components pieces = CE::connected_components(CE::import_mesh(mesh).triangulation);
+  std::string list;
+  const std::size_t most = 10;
+  for(std::size_t i = 0; i < pieces.components.size() && i < most; ++i)
+    list += text(i == 0 ? " " : ", ", given.face(Face(pieces.components[i].first_face)));
+  return "; the components have the faces" + list + (pieces.components.size() > most ? ", ..." : "");
+}
+
+std::string advice_on_topology(const Options& options, const Given_surface& given, const Mesh& mesh, const Report& report)
+{
+  const bool is_in_pieces = report.topology.number_of_components > 1;
+  const std::string what =
+      options.target == Target::SPHERE ? "; --target sphere takes closed surfaces of genus 0, of one component"
+    : options.target == Target::DISK ? "; --target disk takes surfaces of genus 0 with one border, of one component"
+    : options.seamless && is_in_pieces ? "; --seamless takes one component"
+    : options.places_cones && is_in_pieces ? "; --cones auto takes one component" : "";
+  return what + (is_in_pieces && ! what.empty() ? list_of_components(given, mesh) : "");
 }
 
 // Lengths are scaled by e^u: where that ranges further than the digits of a number do, points that differ are rounded to the same one. With
@@ -202,7 +218,7 @@ std::string advice_on_injectivity(const Options& options, const CE::Statistics& 
   return options.precision_in_bits == bits_of_double && ! options.local_repair ? " (--precision BITS has more digits)" : "";
 }
 
-std::string advice(const Options& options, const Report& report)
+std::string advice(const Options& options, const Given_surface& given, const Mesh& mesh, const Report& report)
 {
   switch(report.status)
   {
@@ -214,7 +230,7 @@ std::string advice(const Options& options, const Report& report)
     case CE::Status::SINGULAR_PROBLEM:
       return advice_to_converge(options, report);
     case CE::Status::WRONG_TOPOLOGY:
-      return advice_on_topology(options.target);
+      return advice_on_topology(options, given, mesh, report);
     case CE::Status::NO_ANGLE_LEFT:
       return report.topology.genus == 0 && report.topology.number_of_borders == 0 ? " (a sphere needs three cones, at least)" : "";
     case CE::Status::MISSING_CONDITION:
@@ -244,9 +260,9 @@ std::string explanation(const Options& options, const Given_surface& given, cons
   {
     const std::string edge = edge_too_long(given, mesh, conditions, report);
     if(! edge.empty())
-      return CE::message(report.status) + edge + advice(options, report);
+      return CE::message(report.status) + edge + advice(options, given, mesh, report);
   }
-  return message_in_degrees(report) + advice(options, report);
+  return message_in_degrees(report) + advice(options, given, mesh, report);
 }
 
 } // namespace flattening
