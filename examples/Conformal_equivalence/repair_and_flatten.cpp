@@ -28,14 +28,14 @@ namespace CE = CGAL::Conformal_equivalence;
 
 int main()
 {
-  // A roof with a chimney, as files have it: every face has points of its own, of which one is given twice; one face is upside down, one comes
-  // twice, and one is a segment. Three faces meet at the edge of the chimney.
+  // A roof with a gable and a wall on its ridge, as files have it: nearly every face has points of its own; the gable is upside down, one face
+  // comes twice, and one is a mere point. Three faces meet at the ridge.
   std::vector<Point_3> points = {
     Point_3(0, 0, 0), Point_3(4, 0, 0), Point_3(4, 2, 1), Point_3(0, 2, 1),
     Point_3(4, 4, 0), Point_3(0, 4, 0), Point_3(0, 2, 1), Point_3(4, 2, 1),
     Point_3(0, 2, 1), Point_3(4, 2, 1), Point_3(4, 2, 3), Point_3(0, 2, 3),
     Point_3(4, 0, 0), Point_3(4, 4, 0), Point_3(4, 2, 1) };
-  std::vector<Polygon> polygons = { {0, 1, 2, 3}, {6, 7, 4, 5}, {8, 9, 10, 11}, {1, 0, 3, 2}, {2, 14, 7}, {12, 13, 14} };
+  std::vector<Polygon> polygons = { {0, 1, 2, 3}, {6, 7, 4, 5}, {8, 9, 10, 11}, {1, 0, 3, 2}, {2, 14, 7}, {12, 14, 13} };
 
   // Equal points become one, faces with fewer than three different points are dropped, and all but one of equal faces.
   PMP::repair_polygon_soup(points, polygons);

@@ -430,7 +430,7 @@ BOOST_AUTO_TEST_CASE(bad_cone_files)
   const std::string sphere = write_off(folder, "sphere.off", testing::icosphere(2));
   const auto check_sphere = [&](const std::string& text, const std::string& reason)
     { check_refused({sphere, "-o", folder / "o.obj", "--cones", folder.write("c.txt", text)}, 1, reason); };
-  check_sphere("0 180\n1 180\n2 180\n", "the prescribed angles sum up to 180 degrees too much: on a component without fixed u they have to fit the Gauss-Bonnet");
+  check_sphere("0 180\n1 180\n2 180\n", "sum up to 180 degrees too much: on a component without fixed u they have to fit the Gauss-Bonnet");
   check_sphere("0 90\n1 120\n2 60\n", "the prescribed angles sum up to 90 degrees too little");
   check_sphere("# none\n", "needs cones");
   check_sphere("0 free\n1 free\n", "leave none for the vertices of fixed scale: 0 degrees; vertices 0, 1 (a sphere needs three cones, at least)");

@@ -884,7 +884,8 @@ BOOST_AUTO_TEST_CASE(polygons_are_not_cut)
 {
   const Folder folder;
   const std::string cube = folder.write("cube.off", off("0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n",
-    "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")), cones = folder.write("cones.txt", cone_lines({0, 1, 2, 3, 4, 5, 6, 7}, "270"));
+    "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"));
+  const std::string cones = folder.write("cones.txt", cone_lines({0, 1, 2, 3, 4, 5, 6, 7}, "270"));
   for(const std::vector<std::string>& options : std::vector<std::vector<std::string> >{ {}, {"--precision", "100"}, {"--seamless", "--tiles", "6"} })
   {
     const Obj obj = flattened(folder, cube, with({"--cones", cones}, options));
@@ -1066,7 +1067,7 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written)
   const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
   check_refused({input, "-o", folder / "none/o.obj"}, 1, "cannot write");
   check_refused({input, "-o", folder.path.string()}, 1, "it is a directory");
-  check_refused({input, "-o", input}, 2, "would overwrite the input");
+  check_refused({input, "--svg", input}, 2, "would overwrite the input");
   const std::string cones = folder.write("o.mtl", "12 free\n");
   check_refused({input, "--cones", cones, "--svg", cones}, 2, "would overwrite the input");
   fs::remove(cones);

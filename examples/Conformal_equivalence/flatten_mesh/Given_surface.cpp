@@ -25,7 +25,7 @@ bool consists_of_triangles(const Polygon_soup& soup)
   return std::all_of(soup.faces.begin(), soup.faces.end(), [](const Polygon& face) { return face.size() == 3; });
 }
 
-// The vertices of a face that stand for its own, sorted.
+// The vertices that stand for those of a face, sorted.
 Polygon points_of(const Given_surface& given, std::size_t f)
 {
   Polygon points;

@@ -103,21 +103,22 @@ void check_faces(const Polygon_soup& soup, const std::string& file)
   }
 }
 
-bool have_same_vertices(Polygon a, Polygon b)
+// The same face, beginning with its smallest vertex, and in the direction of the smaller one of its neighbours.
+Polygon canonical(Polygon face)
 {
-  std::sort(a.begin(), a.end());
-  std::sort(b.begin(), b.end());
-  return a == b;
+  std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+  if(face.back() < face[1])
+    std::reverse(face.begin() + 1, face.end());
+  return face;
 }
 
-// Fails if two of the faces at an edge are the same, up to orientation.
+// Fails if two of these faces, sorted, are the same, up to orientation.
 void refuse_duplicates(const Polygon_soup& soup, const std::vector<std::uint32_t>& faces, const std::string& file)
 {
   for(std::size_t j = 1; j < faces.size() && j < 10; ++j)
     for(std::size_t i = 0; i < j; ++i)
-      if(have_same_vertices(soup.faces[faces[i]], soup.faces[faces[j]]))
-        fail(file, ": the faces ", (std::min)(faces[i], faces[j]), " and ", (std::max)(faces[i], faces[j]),
-             " have the same vertices (--repair drops all but one of such faces)");
+      if(canonical(soup.faces[faces[i]]) == canonical(soup.faces[faces[j]]))
+        fail(file, ": the faces ", faces[i], " and ", faces[j], " have the same vertices (--repair drops all but one of such faces)");
 }
 
 // Says why two faces that pass an edge v-w in the same direction cannot stay as they are.
@@ -144,6 +145,7 @@ std::size_t check_edges(const Polygon_soup& soup, const Vertex_stars& stars, con
         for(const auto& range : {there, back})
           for(auto d = range.first; d != range.second; ++d)
             faces.push_back(d->face);
+        std::sort(faces.begin(), faces.end());
         refuse_duplicates(soup, faces, file);
         if(n + m > 2)
           fail(file, ": not a manifold: the edge ", v, "-", w, " lies in ", n + m, " faces (", faces[0], ", ", faces[1],

@@ -76,7 +76,7 @@ po::options_description visible_options()
     ("refine", po::bool_switch(), "if edges were flipped, write the mesh of the parts into which they cut the triangles, on which the "
        "map is projective; otherwise this is done with --projective, and where the triangles are flipped if their edges are drawn straight")
     ("repair", po::bool_switch(), "first make the surface an oriented manifold: equal points are merged, degenerate and duplicate faces "
-       "dropped, faces turned, and the surface is taken apart where it is no manifold. No vertex is moved, and every face of INPUT is in the OBJ file")
+       "dropped, faces turned, and the surface is taken apart where it is no manifold. No vertex is moved, and all faces of INPUT are written")
     ("local-repair", po::bool_switch(), "no flips on the way; instead, where triangles break, edges of a copy of the mesh are flipped or split, "
        "and the copy is written")
     ("mollify", po::value<std::string>()->default_value("0"), "add the least constant to all lengths with which every triangle inequality "

@@ -204,7 +204,7 @@ void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, 
   for(const auto& line : summary(options, mesh, figures))
     out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
   for(const std::string& file : {options.obj, options.svg, options.html, options.report})
-    if(! file.empty())
+    if(! file.empty() && file != "-")
       out << "  wrote " << file << '\n';
 }
 
@@ -286,8 +286,8 @@ nlohmann::ordered_json json_seamless(const Figures& figures)
     return nullptr;
   auto seams = nlohmann::ordered_json::array();
   for(const Seam_path& path : figures.seams)
-    seams.push_back({ {"from", figures.given->vertex(path.from)}, {"to", figures.given->vertex(path.to)}, {"edges", path.number_of_edges}, {"rotation", path.quanta},
-                      {"translation", path.translation} });
+    seams.push_back({ {"from", figures.given->vertex(path.from)}, {"to", figures.given->vertex(path.to)}, {"edges", path.number_of_edges},
+                      {"rotation", path.quanta}, {"translation", path.translation} });
   nlohmann::ordered_json json = { {"symmetry", t.symmetry}, {"tiles", t.number_of_tiles}, {"scale", t.scale},
                                   {"rotation_degrees", in_degrees(t.rotation)},
                                   {"distortion", { {"mean", t.mean_distortion}, {"max", t.maximum_distortion} }}, {"closest", t.is_closest},
