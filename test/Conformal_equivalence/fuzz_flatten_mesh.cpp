@@ -858,9 +858,9 @@ inline std::vector<Input> valid_inputs()
   add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), cone_choice(SEAMLESS_WITHIN_BOUND, 1)), grid(4, 0.3, 1), inputs);
   for(Way w : {SPHERE, SPHERE_OF_AREAS, SPHERE_BY_VERTEX, SPHERE_WITH_DIGITS, REPAIR_TO_SPHERE})
     add_in_all_formats(with_way(conditions(NOT_GIVEN, 2, 0), w, 3), w == SPHERE || w == REPAIR_TO_SPHERE ? cubes(one) : octahedron(), inputs);
-  for(Way w : {DISK, DISK_OF_AREAS, DISK_BY_VERTEX, DISK_AROUND_VERTEX, DISK_OF_POINTS, DISK_WITH_DIGITS})
+  for(Way w : {DISK, DISK_OF_AREAS, DISK_BY_VERTEX, DISK_AROUND_VERTEX, DISK_OF_POINTS, DISK_WITH_DIGITS, REPAIR_TO_DISK})
     add_in_all_formats(with_way(conditions(NOT_GIVEN, 1, 0, "", "", "", "0,1,4"), w, w == DISK_AROUND_VERTEX ? 5 : 0), grid(3, 0.3, 1), inputs);
-  for(Way w : {DIGITS, KEPT_BORDER, LOCAL_REPAIR, MOLLIFICATION, REPAIR, REPAIR_TO_DISK})
+  for(Way w : {DIGITS, KEPT_BORDER, LOCAL_REPAIR, MOLLIFICATION, REPAIR})
     add_in_all_formats(with_way(conditions(NATURAL, 0, 0), w), grid(4, 0.3, 1), inputs);
   return inputs;
 }

@@ -119,6 +119,13 @@ BOOST_AUTO_TEST_CASE(checker_refuses_other_maps)
 
 namespace {
 
+std::string replaced(std::string text, const std::string& what, const std::string& by)
+{
+  for(std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
 std::string as_obj(const Soup& soup)
 {
   std::ostringstream out;
@@ -229,7 +236,7 @@ BOOST_AUTO_TEST_CASE(every_format_gives_the_same)
     const Run r = run({input, "-o", folder / "o.obj", "--quiet"});
     BOOST_TEST_CONTEXT(input << ": " << r.err)
     BOOST_TEST(r.status == 0);
-    const std::string obj = content(folder / "o.obj");
+    const std::string obj = replaced(content(folder / "o.obj"), "o grid\n", ""); // the name of the object, where the file has one
     if(first.empty())
       first = obj;
     BOOST_TEST((obj == first));
@@ -394,13 +401,6 @@ std::string upper_case(std::string text)
 {
   for(char& c : text)
     c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by)
-{
-  for(std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
   return text;
 }
 

@@ -28,11 +28,14 @@ std::optional<std::string> absent_value(std::size_t key)
   }
 }
 
-std::string path_seen_from(const fs::path& folder, const fs::path& path)
+// The file `name`, in the folder `from` unless the name is absolute, as it is seen from the folder `to`.
+std::string name_seen_from(const fs::path& to, const fs::path& from, const std::string& name)
 {
   std::error_code error;
-  const fs::path result = path.is_absolute() ? path : fs::relative(path, folder, error);
-  return error || result.empty() ? fs::absolute(path, error).generic_string() : result.generic_string();
+  const fs::path path = from / name, relative = fs::relative(path, to, error);
+  if(fs::path(name).is_absolute())
+    return name;
+  return error || relative.empty() ? fs::absolute(path, error).generic_string() : relative.generic_string();
 }
 
 // The names that follow `mtllib` in the file `input`, as they are seen from the file `output`.
@@ -45,11 +48,11 @@ std::string libraries_seen_from(const std::string& output, const std::string& in
   if(fs::equivalent(fs::absolute(from / ".", error), to, error))
     return names;
   if(fs::exists(from / names, error)) // a name may have spaces
-    return path_seen_from(to, from / names);
+    return name_seen_from(to, from, names);
   std::string result;
   std::istringstream words(names);
   for(std::string name; words >> name; )
-    result += (result.empty() ? "" : " ") + path_seen_from(to, from / name);
+    result += (result.empty() ? "" : " ") + name_seen_from(to, from, name);
   return result;
 }
 

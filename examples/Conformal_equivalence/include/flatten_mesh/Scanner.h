@@ -104,20 +104,20 @@ public:
   // The next word of this line; empty if there is none.
   std::string_view word_in_line() { return at_end_of_line() ? std::string_view() : word(); }
 
-  // What is left of this line, without the spaces around it.
+  // What is left of this line, without the blanks around it; its parts, if it is continued, with one blank between.
   std::string rest_of_line()
   {
     std::string rest;
     for(skip_blanks(); at_ < text_.size() && ! is_end_of_line(at_); )
       if(is_continued(at_))
       {
+        rest = without_blanks_at_end(rest) + ' ';
         pass_continuation();
-        rest += ' ';
+        skip_blanks();
       }
       else
         rest += text_[at_++];
-    rest.erase(rest.find_last_not_of(" \t\r\v\f") + 1);
-    return rest;
+    return without_blanks_at_end(rest);
   }
 
   // Goes to the end of this line; if it is continued, to that of its last part.
@@ -198,6 +198,11 @@ private:
   {
     while(at_ < text_.size() && ! is_end_of_line(at_))
       ++at_;
+  }
+
+  static std::string without_blanks_at_end(const std::string& words)
+  {
+    return words.substr(0, words.find_last_not_of(" \t\r\v\f") + 1);
   }
 
   void skip_blanks()
