@@ -6,6 +6,7 @@
 
 #define BOOST_TEST_MODULE test_closest_vector
 #include "include/boost_test.h"
+#include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
 
@@ -23,8 +24,12 @@
 #include <vector>
 
 namespace CE = CGAL::Conformal_equivalence;
+using testing::few_roundings;
 
 namespace {
+
+// Relative, of square lengths: 2^-53 times the condition number of the Gram matrices, which is up to 10^4.
+constexpr double rounded_square = 1e4 * testing::unit_roundoff;
 
 typedef CE::internal::Reduced_lattice     Reduced_lattice;
 typedef CE::internal::Lattice_reduction   Lattice_reduction;
@@ -205,11 +210,12 @@ void check_reduced(const Eigen::MatrixXd& gram)
   for(std::size_t k = 0; k < lattice.dimension(); ++k)
     vectors.push_back(lattice.basis()[k].coefficients);
   const Reduction_measure after = measure(gram, vectors);
-  BOOST_TEST(after.largest_mu <= .5 + 1e-8);
-  BOOST_TEST(after.least_lovasz >= .99 - 1e-8);
-  BOOST_TEST(after.least_deep >= .99 - 1e-8);
+  const double rounding = 1e-8; // of the coefficients, by a condition number of the Gram matrix of up to 10^8
+  BOOST_TEST(after.largest_mu <= .5 + rounding);
+  BOOST_TEST(after.least_lovasz >= .99 - rounding);
+  BOOST_TEST(after.least_deep >= .99 - rounding);
   const Reduction_measure before = measure(gram, unit_vectors(lattice.dimension()));
-  BOOST_TEST((before.largest_mu > .5 + 1e-8 || before.least_lovasz < .99 - 1e-8)); // there was something to do
+  BOOST_TEST((before.largest_mu > .5 + rounding || before.least_lovasz < .99 - rounding)); // there was something to do
 }
 
 long double square_distance(const Eigen::MatrixXd& gram, const std::vector<long>& k, const Eigen::VectorXd& x)
@@ -307,12 +313,13 @@ BOOST_AUTO_TEST_CASE(closest_against_brute_force)
         const Lattice_vector v = lattice.closest(x, 100000), b = lattice.babai(x);
         BOOST_TEST(v.is_closest);
         BOOST_TEST(v.square_distance <= b.square_distance);
-        BOOST_TEST((!b.is_closest || v.coefficients == b.coefficients));
+        if(b.is_closest)
+          BOOST_TEST((v.coefficients == b.coefficients));
         const std::vector<double> all = brute_force(gram, x, v.square_distance * (1 + 1e-9));
         BOOST_TEST_REQUIRE(!all.empty());
-        BOOST_TEST(is_close(v.square_distance, all.front(), 1e-12));
+        BOOST_TEST(is_close(v.square_distance, all.front(), rounded_square));
         const std::vector<long> k(v.coefficients.begin(), v.coefficients.end());
-        BOOST_TEST(is_close(v.square_distance, double(square_distance(gram, k, x)), 1e-12));
+        BOOST_TEST(is_close(v.square_distance, double(square_distance(gram, k, x)), rounded_square));
         number_improved += v.square_distance < b.square_distance;
         ++number_of_cases;
       }
@@ -337,7 +344,7 @@ BOOST_AUTO_TEST_CASE(near_against_brute_force)
         for(std::size_t i = 0; i < most; ++i)
         {
           BOOST_TEST(list[i].is_closest);
-          BOOST_TEST(is_close(list[i].square_distance, all[i], 1e-12));
+          BOOST_TEST(is_close(list[i].square_distance, all[i], rounded_square));
           BOOST_TEST((i == 0 || CE::internal::is_nearer(list[i - 1], list[i]))); // strictly: no point twice
         }
         BOOST_TEST((list.front().coefficients == lattice.closest(x, 1000000).coefficients));
@@ -385,7 +392,7 @@ BOOST_AUTO_TEST_CASE(integer_lattice)
       BOOST_TEST(v.is_closest);
       for(int i = 0; i < d; ++i)
         BOOST_TEST(double(v.coefficients[std::size_t(i)]) == std::round(x[i]));
-      BOOST_TEST(is_close(v.square_distance, (x - x.array().round().matrix()).squaredNorm(), 1e-12));
+      BOOST_TEST(is_close(v.square_distance, (x - x.array().round().matrix()).squaredNorm(), rounded_square));
     }
     const Lattice_vector w = hidden.closest(t.second * x, 1000);
     BOOST_TEST(w.is_closest);
@@ -416,8 +423,8 @@ BOOST_AUTO_TEST_CASE(hexagonal_lattice)
   hole << 2. / 3, 1. / 3;
   const std::vector<Lattice_vector> corners = lattice.nearest_vectors(hole, 4, 100000);
   for(std::size_t i = 0; i < 3; ++i)
-    BOOST_TEST(is_close(corners[i].square_distance, 2. / 3, 1e-15));
-  BOOST_TEST(is_close(corners[3].square_distance, 8. / 3, 1e-15));
+    BOOST_TEST(is_close(corners[i].square_distance, 2. / 3, few_roundings));
+  BOOST_TEST(is_close(corners[3].square_distance, 8. / 3, few_roundings));
 }
 
 BOOST_AUTO_TEST_CASE(lattice_E8)
@@ -426,7 +433,7 @@ BOOST_AUTO_TEST_CASE(lattice_E8)
   for(const std::pair<int, int>& edge : {std::make_pair(0, 1), std::make_pair(1, 2), std::make_pair(2, 3), std::make_pair(3, 4),
                                          std::make_pair(4, 5), std::make_pair(5, 6), std::make_pair(4, 7)})
     gram(edge.first, edge.second) = gram(edge.second, edge.first) = -1;
-  BOOST_TEST(is_close(gram.determinant(), 1, 1e-12));
+  BOOST_TEST(is_close(gram.determinant(), 1, 100 * few_roundings));
   const Reduced_lattice lattice(gram);
   // the origin, 240 vectors of square length 2, then those of 4
   const std::vector<Lattice_vector> shells = lattice.nearest_vectors(Eigen::VectorXd::Zero(8), 243, 1000000);
@@ -466,7 +473,7 @@ BOOST_AUTO_TEST_CASE(bound_of_Babai)
         double box = 0; // half of the b*_i
         for(std::size_t k = 0; k < lattice.dimension(); ++k)
           box += lattice.square_length(k) / 4;
-        BOOST_TEST(b.square_distance <= box * (1 + 1e-9));
+        BOOST_TEST(b.square_distance <= box * (1 + rounded_square));
         BOOST_TEST(v.is_closest);
         BOOST_TEST(v.square_distance <= b.square_distance);
         BOOST_TEST(b.square_distance <= std::pow(2., d) * v.square_distance);
@@ -537,7 +544,7 @@ BOOST_AUTO_TEST_CASE(many_dimensions)
   double box = 0;
   for(std::size_t k = 0; k < lattice.dimension(); ++k)
     box += lattice.square_length(k) / 4;
-  BOOST_TEST(b.square_distance <= box * (1 + 1e-9));
+  BOOST_TEST(b.square_distance <= box * (1 + rounded_square));
   BOOST_TEST(!b.is_closest);
 }
 
@@ -561,7 +568,7 @@ BOOST_AUTO_TEST_CASE(scale_does_not_matter)
   y << .25, 7.75, -3.5;
   const Lattice_vector w = Reduced_lattice(wide).closest(y, 1000);
   BOOST_TEST((w.is_closest && w.coefficients[0] == 0 && w.coefficients[1] == 8 && std::abs(double(w.coefficients[2]) + 3.5) == .5));
-  BOOST_TEST(is_close(w.square_distance, 1e200 / 16, 1e-15));
+  BOOST_TEST(is_close(w.square_distance, 1e200 / 16, few_roundings));
   wide.diagonal() << 1e-300, 1e300, 1; // squares would leave the range of double
   BOOST_TEST(!Reduced_lattice(wide).is_valid());
 }
