@@ -29,7 +29,8 @@
 // the order of d^2, as the energy is twice continuously differentiable. A flat triangle in the disk, however, makes the problem as good as
 // insoluble: its angles change like the root of its lengths. So m is taken in as soon as jkm is nearly flat, and let go only where
 // the angle is larger than pi by more than what that makes it; and as no vertex is let go more than a few times, the exchange ends. It is
-// first done with angle sums that are right to 1e-6, as accurately as a nearly flat triangle lets them be in `double`. Then all of them are made
+// first done with angle sums that are right to 1e-3 and 1e-6, as accurately as a nearly flat triangle lets them be in `double`; where they cannot be
+// had, as the link is far from the one looked for, what came out tells nevertheless which triangles are to be taken in. Then all of them are made
 // right, and the link is settled by bounds that are as narrow as that allows; last, without any, and if that is not possible, what was found before
 // is the result.
 //
@@ -110,9 +111,10 @@ public:
     result.flips = std::move(flips);
     result.unit = typical_spoke(result.triangulation, apex);
     Metric metric;
+    // A nearly flat triangle with an angle of pi - d has two sides that are by d^2 / 8 longer than the third: these are angles of 3e-3 and 1e-3.
     settle_link(1e-3, Link_bounds{1e-6, 3e-2, most_releases_}, result, metric);
     if(is_success(result.status))
-      settle_link(rough_tolerance_, Link_bounds{1e-7, 1e-2, most_releases_}, result, metric);
+      settle_link(finest_estimate_, Link_bounds{1e-7, 1e-2, most_releases_}, result, metric);
     if(is_success(result.status))
       settle_precisely(result, metric);
     if(is_success(result.status))
@@ -164,7 +166,7 @@ private:
     options.retriangulation = Retriangulation::WHEN_NEEDED;
     options.border_edges = Border_edges::KEPT;
     options.has_come_from_flips = true;
-    options.is_estimate = tolerance >= rough_tolerance_;
+    options.is_estimate = tolerance >= finest_estimate_;
     for(int round = 0; round < most_exchanges_; ++round)
     {
       Apex_star<NT> star(result);
@@ -274,8 +276,7 @@ private:
     placement(axis, result);
   }
 
-  // Angle sums that flat triangles allow in `double`, see above.
-  static constexpr double rough_tolerance_ = 1e-6;
+  static constexpr double finest_estimate_ = 1e-6; // of angle sums, see above
   // The link hardly ever changes, and each exchange brings it nearer to the minimum: that a vertex comes and goes more often, or that there are more
   // rounds, means that rounding moves it to and fro.
   static constexpr int most_releases_ = 4;
