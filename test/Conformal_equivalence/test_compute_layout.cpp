@@ -319,6 +319,33 @@ BOOST_AUTO_TEST_CASE(tori_of_revolution)
   }
 }
 
+// Each torus among others, cut into disks or into single triangles, has the lattice that it has alone.
+BOOST_AUTO_TEST_CASE(lattices_of_many_tori)
+{
+  const std::vector<testing::Soup> shapes = { testing::torus(6, 5), testing::hill(3, .2), testing::torus(8, 6, 3, .7), testing::torus(5, 7, 2, 1) };
+  const auto lattices = [](const Triangulation& t, bool is_cut_everywhere)
+  {
+    const Metric metric = solved(t, Conditions(t));
+    return CE::compute_layout(t, metric, is_cut_everywhere ? cut_everywhere(t) : CE::compute_cut_graph(t, {})).lattices;
+  };
+  for(const bool is_cut_everywhere : { false, true })
+  {
+    std::vector<Complex> alone, together;
+    std::vector<testing::Soup> many;
+    for(int repetition = 0; repetition < 20; ++repetition)
+      many.insert(many.end(), shapes.begin(), shapes.end());
+    for(const testing::Soup& shape : shapes)
+      for(const auto& lattice : lattices(testing::triangulation(shape), is_cut_everywhere))
+        alone.push_back(complex(lattice.tau));
+    BOOST_TEST(alone.size() == 3u);
+    for(const auto& lattice : lattices(testing::triangulation(testing::together(many)), is_cut_everywhere))
+      together.push_back(complex(lattice.tau));
+    BOOST_TEST_REQUIRE(together.size() == 20 * alone.size());
+    for(std::size_t i = 0; i < together.size(); ++i) // angle sums are right to 1e-16, and a period is the sum of some dozen edges
+      BOOST_TEST(std::abs(together[i] - alone[i % 3]) <= 1e-12);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(tori_with_cones_have_no_lattice)
 {
   const Triangulation t = testing::triangulation(testing::torus(12, 8));
