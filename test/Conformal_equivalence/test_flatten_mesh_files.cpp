@@ -289,7 +289,7 @@ BOOST_AUTO_TEST_CASE(bad_files)
     {"a.off", "\xFF\xFEO\0F\0F\0", "is encoded in UTF-16 or UTF-32; convert it to UTF-8"},
     {"a.off", off(square, "3 0 1 2\n3 0 2 2\n"), "face 1 has the vertex 2 twice (--repair"},
     {"a.off", off(square, ""), "there are no faces"},
-    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 1 0 3\n3 0 1 4\n"), "not a manifold: the edge 0-1 lies in 3 faces (0, 2, ...) (--repair"},
+    {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 1 0 3\n3 0 1 4\n"), "not a manifold: the edge 0-1 lies in 3 faces (0, 1, ...) (--repair"},
     {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 2 0 1\n"), "the faces 0 and 2 have the same vertices (--repair"},
     {"a.off", off(square, "3 0 1 2\n3 0 3 2\n3 1 0 3\n"), "have opposite orientations at the edge 0-3 (--repair"},
     {"a.off", off(square + "0 0 1\n", "3 0 1 2\n3 0 3 4\n"), "not a manifold: the faces at the vertex 0 form more than one fan (--repair"},
