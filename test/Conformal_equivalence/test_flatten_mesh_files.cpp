@@ -578,6 +578,15 @@ std::vector<Said_of_face> said_of_faces(const std::string& obj)
   return result;
 }
 
+// Where faces are in another order, some may come back to what held before the first line. (There are no such words for an object.)
+std::map<std::string, std::string> with_defaults(std::map<std::string, std::string> lines)
+{
+  lines.emplace("g", "default");
+  lines.emplace("s", "off");
+  lines.erase("o");
+  return lines;
+}
+
 std::string lines_with(const std::string& key, const std::string& obj)
 {
   std::istringstream in(obj);
@@ -670,7 +679,7 @@ BOOST_AUTO_TEST_CASE(what_is_said_of_faces_is_kept_in_other_meshes)
       y += 4 * parts.points[v][1] / 3;
     }
     const std::size_t i = std::size_t(x), j = std::size_t(y), given = 2 * (4 * j + i) + (y - double(j) > x - double(i));
-    BOOST_TEST((of_parts[f].lines == said[given].lines));
+    BOOST_TEST((with_defaults(of_parts[f].lines) == with_defaults(said[given].lines)));
   }
 
   std::string closed = "s 1\n";
