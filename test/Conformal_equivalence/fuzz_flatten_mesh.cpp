@@ -348,28 +348,27 @@ inline bool is_one_line(const std::string& text)
   return text.size() > 1 && text.find('\n') == text.size() - 1;
 }
 
-// Whether each face of the OBJ file has three corners.
-inline std::vector<bool> are_triangles(const std::string& obj)
+// The OBJ file without faces of other than three corners, which are of the input then.
+inline std::string triangles_of(const std::string& obj)
 {
-  std::vector<bool> result;
   std::istringstream in(obj);
+  std::string result;
   for(std::string line; std::getline(in, line); )
-    if(line.compare(0, 2, "f ") == 0)
-      result.push_back(checking::count_words(line) == 4);
+    if(line.compare(0, 2, "f ") != 0 || checking::count_words(line) == 4)
+      result += line + '\n';
   return result;
 }
 
 // Empty if all triangles with exact coordinates are turned to the left, or flat.
-inline std::string fault_of_triangles(const checking::Surface& s, const std::string& obj)
+inline std::string fault_of_triangles(const checking::Surface& s)
 {
   typedef CGAL::Exact_predicates_inexact_constructions_kernel::Point_2 Point;
-  const std::vector<bool> is_triangle = are_triangles(obj);
   for(std::size_t f = 0; f < s.faces.size() && ! s.has_weights; ++f)
   {
     Point p[3];
     for(std::size_t k = 0; k < 3; ++k)
       p[k] = Point(s.texture.at(s.corners[f][k])[0], s.texture.at(s.corners[f][k])[1]);
-    if(is_triangle[f] && CGAL::orientation(p[0], p[1], p[2]) == CGAL::NEGATIVE)
+    if(CGAL::orientation(p[0], p[1], p[2]) == CGAL::NEGATIVE)
       return "face " + std::to_string(f) + " of the layout is flipped";
   }
   return "";
@@ -391,10 +390,10 @@ inline std::string fault_of_sphere(const checking::Surface& s)
 // repaired lie as those do that stand for them.
 inline std::string fault_of_layout(const Input& input, const std::string& obj, const std::string& message)
 {
-  std::istringstream in(obj);
-  const checking::Surface s = checking::read_obj(in);
-  if(s.faces.empty())
+  if(obj.find("\nf ") == std::string::npos)
     return "the output has no faces";
+  std::istringstream in(triangles_of(obj));
+  const checking::Surface s = checking::read_obj(in);
   if(is_sphere(input))
     return fault_of_sphere(s);
   for(const auto& p : s.texture)
@@ -402,7 +401,7 @@ inline std::string fault_of_layout(const Input& input, const std::string& obj, c
       if(! std::isfinite(x))
         return "a texture coordinate is not a finite number";
   const bool may_be_flipped = is_repaired(input) || (is_disk(input) && (input.has(QUIET) || message.find("not positive") != std::string::npos));
-  return may_be_flipped ? "" : fault_of_triangles(s, obj);
+  return may_be_flipped ? "" : fault_of_triangles(s);
 }
 
 // Notices, one a line.

@@ -583,6 +583,15 @@ std::vector<Said_of_face> said_of_faces(const std::string& obj)
   return result;
 }
 
+// Where faces are in another order, some may come back to what held before the first line. (There are no such words for an object.)
+std::map<std::string, std::string> with_defaults(std::map<std::string, std::string> lines)
+{
+  lines.emplace("g", "default");
+  lines.emplace("s", "off");
+  lines.erase("o");
+  return lines;
+}
+
 std::string lines_with(const std::string& key, const std::string& obj)
 {
   std::istringstream in(obj);
@@ -624,7 +633,7 @@ BOOST_AUTO_TEST_CASE(what_obj_files_say_of_faces_is_kept)
   fs::create_directory(folder.path / "out");
   folder.write("in/my colours.mtl", "newmtl red\n");
   const std::string obj = as_obj_with_attributes(bumpy_grid(2), false), input = folder.write("in/a.obj", obj);
-  std::vector<Said_of_face> expected = said_of_faces(replaced(obj, "\\\n ", ""));
+  std::vector<Said_of_face> expected = said_of_faces(replaced(obj, "\\\n  ", ""));
   for(Said_of_face& face : expected) // those without a material get one
     face.lines.emplace("usemtl", "layout");
   const Run r = run({input, "-o", folder / "out/o.obj"});
@@ -640,7 +649,7 @@ BOOST_AUTO_TEST_CASE(what_obj_files_say_of_faces_is_kept)
   const std::string coloured = as_obj_with_attributes(bumpy_grid(2), true);
   BOOST_TEST(run({folder.write("in/b.obj", coloured), "-o", folder / "in/q.obj"}).status == 0);
   const std::string as_coloured = content(folder / "in/q.obj");
-  BOOST_TEST((said_of_faces(as_coloured) == said_of_faces(replaced(coloured, "\\\n ", ""))));
+  BOOST_TEST((said_of_faces(as_coloured) == said_of_faces(replaced(coloured, "\\\n  ", ""))));
   BOOST_TEST(lines_with("mtllib", as_coloured) == "my colours.mtl\na.mtl b.mtl\n");
   BOOST_TEST(! fs::exists(folder / "in/q.mtl"));
   BOOST_TEST(! fs::exists(folder / "in/q.checker.png"));
@@ -659,7 +668,7 @@ BOOST_AUTO_TEST_CASE(what_is_said_of_faces_is_kept_in_other_meshes)
 
   const Soup grid = bumpy_grid(4);
   const std::string obj = as_obj_with_attributes(grid, true);
-  const std::vector<Said_of_face> said = said_of_faces(replaced(obj, "\\\n ", ""));
+  const std::vector<Said_of_face> said = said_of_faces(replaced(obj, "\\\n  ", ""));
   const Run r = run({folder.write("grid.obj", obj), "-o", folder / "r.obj", "--retriangulate", "always", "--refine"});
   BOOST_TEST(r.status == 0);
   BOOST_TEST(contains(r.err, "its normals are not written"));
@@ -676,7 +685,7 @@ BOOST_AUTO_TEST_CASE(what_is_said_of_faces_is_kept_in_other_meshes)
       y += 4 * parts.points[v][1] / 3;
     }
     const std::size_t i = std::size_t(x), j = std::size_t(y), given = 2 * (4 * j + i) + (y - double(j) > x - double(i));
-    BOOST_TEST((of_parts[f].lines == said[given].lines));
+    BOOST_TEST((with_defaults(of_parts[f].lines) == with_defaults(said[given].lines)));
   }
 
   std::string closed = "s 1\n";
