@@ -384,7 +384,8 @@ BOOST_AUTO_TEST_CASE(faces_of_no_area)
   BOOST_TEST(report["retriangulation"]["resolving_flips"] == number);
   BOOST_TEST(report["retriangulation"]["flips"] == number);
   BOOST_TEST(contains(r.out, "to resolve faces of no area"));
-  BOOST_TEST(contains(r.out, "from 0 to 0")); // u
+  for(const char* u : {"u_min", "u_max"}) // right up to the rounding of the lengths
+    BOOST_TEST(std::abs(report[u].get<double>()) <= 1e-15);
 #else
   BOOST_TEST(r.status == 2);
   BOOST_TEST(number > 0u);

@@ -436,7 +436,7 @@ BOOST_AUTO_TEST_CASE(target_disk_with_flips)
 // Towards the ends of a long strip scales fall like e^(-pi x): in double the points there are the same. What is said to help does.
 BOOST_AUTO_TEST_CASE(long_strips_need_digits)
 {
-  const testing::Index length = 30;
+  const testing::Index length = 60;
   testing::Soup strip;
   for(testing::Index x = 0; x <= length; ++x)
     for(const double y : { 0., .5, 1. })

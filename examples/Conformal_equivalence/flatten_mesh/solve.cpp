@@ -81,7 +81,7 @@ Report flatten(const Options& options, const Conditions& conditions, Results& re
 bool is_refinement_needed(const Options& options, const Report& report, const Refinement& refinement)
 {
   return refinement.number_of_faces() != 0
-      && (options.refine || options.projective || ! report.bent_faces.empty()
+      && (options.refine || options.projective || ! report.bent_faces.empty() || ! report.flat_faces.empty()
           || (options.target == Target::DISK && ! report.lost_border_edges.empty()));
 }
 
