@@ -283,7 +283,8 @@ void check_polyhedron(const Mapping& mapping)
   {
     const Index h = t.edge_halfedge(e), i = t.origin(h), j = t.target(h), k = t.apex(h), l = t.apex(t.twin(h));
     const double square = -2 * static_cast<double>(CEi::lorentz_product(mapping.polyhedron.vectors[i], mapping.polyhedron.vectors[j]));
-    BOOST_TEST(std::abs(square / (lengths.length(e) * lengths.length(e)) - 1) <= 2 * error[e] + 16 * unit_roundoff); // u of the link is rounded, |u| < 8
+    const double rounded_u = 16 * unit_roundoff; // of the link, where |u| < 8
+    BOOST_TEST(std::abs(square / (lengths.length(e) * lengths.length(e)) - 1) <= 2 * error[e] + rounded_u);
     std::array<Place, 3> edge = {{place[j], place[k], place[l]}};
     std::array<double, 3> size;
     for(std::size_t n = 0; n < 3; ++n)
