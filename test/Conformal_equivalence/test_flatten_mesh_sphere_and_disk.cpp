@@ -10,6 +10,8 @@
 #include "include/program_runs.h"
 #include "include/test_meshes.h"
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
