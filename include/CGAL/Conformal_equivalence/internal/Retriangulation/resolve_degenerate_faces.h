@@ -16,6 +16,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,22 +28,19 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The longest side of the face of `h`.
+// The longest side of the face f.
 template <typename NT>
-std::uint32_t longest_side(const Intrinsic_triangulation<NT>& t, std::uint32_t h)
+std::uint32_t longest_halfedge(const Intrinsic_triangulation<NT>& t, std::uint32_t f)
 {
-  std::uint32_t longest = h;
-  for(const std::uint32_t g : {t.next(h), t.previous(h)})
-    if(t.halfedge_length(longest) < t.halfedge_length(g))
-      longest = g;
-  return longest;
+  const std::uint32_t h = 3 * f;
+  return h + std::uint32_t(longest_side(t.halfedge_length(h), t.halfedge_length(h + 1), t.halfedge_length(h + 2)));
 }
 
 // Is it a triangle without area, as far as rounded lengths can tell?
 template <typename NT>
 bool is_degenerate_face(const Intrinsic_triangulation<NT>& t, std::uint32_t f)
 {
-  const std::uint32_t h = longest_side(t, 3 * f);
+  const std::uint32_t h = longest_halfedge(t, f);
   return is_degenerate_up_to_rounding(t.halfedge_length(t.next(h)), t.halfedge_length(t.previous(h)), t.halfedge_length(h));
 }
 
@@ -80,7 +78,7 @@ std::vector<std::uint32_t> resolve_degenerate_faces(Intrinsic_triangulation<NT>&
   {
     const std::uint32_t f = suspects.back();
     suspects.pop_back();
-    const std::uint32_t h = longest_side(t, 3 * f), g = t.twin(h);
+    const std::uint32_t h = longest_halfedge(t, f), g = t.twin(h);
     if(!is_degenerate_face(t, f) || !t.is_flippable(t.edge(h)))
       continue;
     const NT length = distance_from_point_of_side(t.halfedge_length(t.previous(h)), t.halfedge_length(t.next(h)), t.halfedge_length(t.next(g)),
