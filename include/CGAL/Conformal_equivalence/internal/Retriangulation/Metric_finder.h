@@ -192,6 +192,7 @@ private:
   static Newton_options newton_options(const Solver_options& options, bool is_careful)
   {
     Newton_options result;
+    result.may_give_up = !is_careful && options.retriangulation == Retriangulation::WHEN_NEEDED;
     result.tolerance = options.gradient_tolerance;
     result.number_of_iterations = options.number_of_iterations;
     result.strategy = options.newton_strategy;
@@ -223,7 +224,8 @@ private:
       return;
     const Stopwatch stopwatch;
     result.triangulation = triangulation_;
-    linear_.set_edges(triangulation_);
+    if(linear_has_flips_ || foreseen_.empty())
+      linear_.set_edges(triangulation_); // else the factor that is there serves
     linear_has_flips_ = true;
     Recording_flip_observer<NT> observer(result.flips, linear_);
     if(!make_delaunay_if_asked(options, observer, result))
@@ -361,6 +363,8 @@ private:
       const Vertex_vector target = targets(conditions);
       Newton_method newton(energy, linear_, target, newton_options(options, is_careful), result.statistics, options.visitor, bounds);
       result.status = newton(u);
+      if(newton.has_given_up())
+        foreseen_ = u;
     }
     if(result.status == Status::OK)
     {
@@ -392,9 +396,11 @@ private:
     linear_.hold(std::move(held));
   }
 
-  // The u given, else the last solution, else zero.
+  // Where an attempt was given up, if it was, else the u given, else the last solution, else zero.
   Vertex_vector first_guess(const Solver_options& options) const
   {
+    if(!foreseen_.empty())
+      return foreseen_;
     if(!options.initial_log_scale_factors.empty())
     {
       CGAL_precondition(options.initial_log_scale_factors.size() == triangulation_.number_of_vertices());
@@ -465,6 +471,7 @@ private:
   Laplacian_solver linear_;
   std::unique_ptr<Fixed_energy<NT> > fixed_energy_;
   Vertex_vector last_u_;
+  Vertex_vector foreseen_; // where the attempt on the triangulation as it is was given up, if it was
   bool linear_has_flips_ = false; // the edges of `linear_` are not those of `triangulation_`
 };
 
@@ -492,6 +499,7 @@ Conformal_metric<NT> Metric_finder<NT>::find(const Conditions& conditions, const
 {
   const Stopwatch stopwatch;
   Metric result;
+  foreseen_.clear();
   try
   {
     try_in_turn(conditions, options, result);

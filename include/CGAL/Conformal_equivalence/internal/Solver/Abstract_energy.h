@@ -45,6 +45,14 @@ public:
   // known of other vertices is out of date until the next evaluation. (Only where edges are flipped.)
   virtual double relax(Index /* v */, double /* target */, double x, double /* most */, double /* close */) { return x; }
 
+  // The same on a triangulation that stays as it is: minimizes E around some vertices, u being held everywhere else.
+  virtual void minimize_around(const std::vector<Index>& /* seeds */, const Edge_graph&, const Vertex_vector& /* target */, Vertex_vector& /* u */) {}
+
+  // The corners of broken faces, and whether one of these faces remains broken for all multiples of d up to `most`. (Only where no edges
+  // are flipped.)
+  virtual std::vector<Index> broken_corners() const { return std::vector<Index>(); }
+  virtual bool stays_broken(const Vertex_vector& /* d */, double /* most */) const { return false; }
+
   // How often a vertex was looked at by itself, in all calls of relax().
   virtual std::size_t number_of_probes() const { return 0; }
 };

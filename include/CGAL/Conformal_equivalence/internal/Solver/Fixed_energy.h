@@ -8,7 +8,7 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Abstract_energy.h>
-#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Patchwise_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_newton_step.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 
@@ -79,9 +79,15 @@ public:
   const std::vector<std::uint32_t>& broken_faces() const override { return energy_.broken_faces(); }
   std::vector<double> sensitivities() const override { return energy_.sensitivities(); }
   bool has_flips() const override { return false; }
+  std::vector<std::uint32_t> broken_corners() const override { return energy_.broken_corners(); }
+  bool stays_broken(const Vertex_vector& d, double most) const override { return energy_.stays_broken(d, most); }
+  void minimize_around(const std::vector<std::uint32_t>& seeds, const Edge_graph& graph, const Vertex_vector& target, Vertex_vector& u) override
+  {
+    energy_.minimize_around(seeds, graph, target, u);
+  }
 
 private:
-  Conformal_energy<double, NT> energy_;
+  Patchwise_energy<NT> energy_;
 };
 
 } // namespace internal
