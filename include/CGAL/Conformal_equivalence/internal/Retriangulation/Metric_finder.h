@@ -106,7 +106,7 @@ private:
   {
     const Stopwatch stopwatch;
     const bool is_final = try_with_border_kept(conditions, options, result);
-    if(!is_final && may_be_helped_by_flips(result) && has_border() && options.border_edges == Border_edges::FLIPPABLE)
+    if(!is_final && may_be_helped_by_flips(result) && may_be_doubled(options))
     {
       discard(result, stopwatch.seconds());
       solve_on_double(conditions, options, result);
@@ -183,20 +183,22 @@ private:
     result = std::move(next);
   }
 
-  bool has_border() const
+  bool may_be_doubled(const Solver_options& options) const
   {
-    return std::any_of(pieces_.components.begin(), pieces_.components.end(),
+    return options.border_edges == Border_edges::FLIPPABLE
+        && std::any_of(pieces_.components.begin(), pieces_.components.end(),
                        [](const Surface_components::Component& c) { return c.number_of_borders > 0; });
   }
 
-  static Newton_options newton_options(const Solver_options& options, bool is_careful)
+  // For one way of several: may it be given up, as there is another one?
+  static Newton_options newton_options(const Solver_options& options, const Abstract_energy& energy, bool may_give_up)
   {
     Newton_options result;
-    result.may_give_up = !is_careful && options.retriangulation == Retriangulation::WHEN_NEEDED;
     result.tolerance = options.gradient_tolerance;
     result.number_of_iterations = options.number_of_iterations;
     result.strategy = options.newton_strategy;
-    result.is_careful = is_careful;
+    result.is_careful = energy.has_flips();
+    result.may_give_up = may_give_up;
     return result;
   }
 
@@ -213,7 +215,7 @@ private:
     if(linear_has_flips_)
       linear_.set_edges(triangulation_);
     linear_has_flips_ = false;
-    minimize(*fixed_energy_, conditions, options, false, result);
+    minimize(*fixed_energy_, conditions, options, options.retriangulation == Retriangulation::WHEN_NEEDED, result);
   }
 
   // On a copy of the triangulation, which is flipped on the way.
@@ -232,7 +234,7 @@ private:
       return;
     const double seconds = stopwatch.seconds();
     Flipping_energy<NT> energy(result.triangulation, observer);
-    minimize(energy, conditions, options, true, result);
+    minimize(energy, conditions, options, may_be_doubled(options), result);
     tell_about_flips(energy.ideal(), seconds, options, result);
   }
 
@@ -254,7 +256,7 @@ private:
       return;
     const double seconds = stopwatch.seconds();
     Folded_energy<NT> energy(result.triangulation, folded, observer);
-    minimize(energy, conditions, options, true, result);
+    minimize(energy, conditions, options, false, result);
     unfold(folded, energy, conditions, options.gradient_tolerance, result);
     tell_about_flips(energy.ideal(), seconds, options, result);
     if(is_success(result.status))
@@ -349,7 +351,7 @@ private:
     return feasibility.status == Status::OK;
   }
 
-  void minimize(Refinable_energy<NT>& energy, const Conditions& conditions, const Solver_options& options, bool is_careful, Metric& result)
+  void minimize(Refinable_energy<NT>& energy, const Conditions& conditions, const Solver_options& options, bool may_give_up, Metric& result)
   {
     linear_.set_free(scales_.free_vertices(conditions));
     const Lower_bounds bounds = scales_.lower_bounds(conditions);
@@ -361,7 +363,7 @@ private:
     if(result.status == Status::OK)
     {
       const Vertex_vector target = targets(conditions);
-      Newton_method newton(energy, linear_, target, newton_options(options, is_careful), result.statistics, options.visitor, bounds);
+      Newton_method newton(energy, linear_, target, newton_options(options, energy, may_give_up), result.statistics, options.visitor, bounds);
       result.status = newton(u);
       if(newton.has_given_up())
         foreseen_ = u;
@@ -471,7 +473,7 @@ private:
   Laplacian_solver linear_;
   std::unique_ptr<Fixed_energy<NT> > fixed_energy_;
   Vertex_vector last_u_;
-  Vertex_vector foreseen_; // where the attempt on the triangulation as it is was given up, if it was
+  Vertex_vector foreseen_; // where the last attempt was given up, if any was
   bool linear_has_flips_ = false; // the edges of `linear_` are not those of `triangulation_`
 };
 

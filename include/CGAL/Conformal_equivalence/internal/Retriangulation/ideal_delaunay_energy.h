@@ -252,6 +252,7 @@ public:
   const std::vector<std::uint32_t>& broken_faces() const override { return energy_.broken_faces(); }
   std::vector<double> sensitivities() const override { return energy_.sensitivities(); }
   bool has_flips() const override { return true; }
+  bool stays_broken(const Vertex_vector& d, double most) const override { return energy_.stays_broken(d, most); }
   std::size_t number_of_probes() const override { return energy_.number_of_probes(); }
   double relax(std::uint32_t v, double target, double x, double most, double close) override { return energy_.relax(v, target, x, most, close); }
   bool make_delaunay(const Factors& s, const Vertex_vector& u) override { return energy_.make_delaunay(s, u); }

@@ -61,23 +61,6 @@ public:
     : Base(t, normalize), t_(t), patch_of_(t.number_of_vertices(), Index(Triangulation::null_index))
   {}
 
-  // The corners of all broken triangles.
-  std::vector<Index> broken_corners() const
-  {
-    std::vector<Index> result;
-    for(const Index f : this->broken_faces())
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
-        result.push_back(t_.origin(h));
-    return result;
-  }
-
-  // Is there a triangle that is broken, and remains so whatever multiple of d, up to `most`, is added to u or subtracted from it?
-  bool stays_broken(const Vertex_vector& d, double most) const
-  {
-    const std::vector<Index>& broken = this->broken_faces();
-    return std::any_of(broken.begin(), broken.end(), [&](Index f) { return is_too_long(f, d, most); });
-  }
-
   // Minimizes E on the patches that the vertices in `seeds` and their neighbors make up, as far as they are unknowns. u changes
   // there; what is known of angle sums and weights is out of date until the next evaluation.
   // \pre the factors are those of u
@@ -91,21 +74,6 @@ public:
   }
 
 private:
-  // The long side against the two others, each at its longest. Both are compared with the long one, whose change they have in common.
-  bool is_too_long(Index f, const Vertex_vector& d, double most) const
-  {
-    const std::array<double, 3> l = lengths(f);
-    const int k = longest_side(l[0], l[1], l[2]), next = (k + 1) % 3, previous = (k + 2) % 3;
-    const double at_apex = d[t_.origin(3 * f + previous)];
-    const auto growth = [&](int end) { return std::exp(most * std::abs(at_apex - d[t_.origin(3 * f + end)]) / 2); };
-    return l[next] * growth(k) + l[previous] * growth(next) < l[k];
-  }
-
-  std::array<double, 3> lengths(Index f) const
-  {
-    return {{this->scaled_length(3 * f), this->scaled_length(3 * f + 1), this->scaled_length(3 * f + 2)}};
-  }
-
   // ---- Which vertices
 
   // The time is linear in the number of triangles at the patches.
@@ -212,7 +180,7 @@ private:
       result.residual.push_back(-target[v]);
     for(std::size_t i = 0; i < patch.faces.size(); ++i)
     {
-      const std::array<double, 3> l = lengths(patch.faces[i]);
+      const std::array<double, 3> l = this->scaled_lengths(patch.faces[i]);
       const Triangle_angles<double> angles = triangle_angles(l[0], l[1], l[2]);
       for(int k = 0; k < 3; ++k)
       {

@@ -120,12 +120,30 @@ public:
     return result;
   }
 
+  // The corners of all broken faces.
+  std::vector<Index> broken_corners() const
+  {
+    std::vector<Index> result;
+    for(const Index f : broken_)
+      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+        result.push_back(t_.origin(h));
+    return result;
+  }
+
+  // Is there a face that is broken, and remains so whatever multiple of d, up to `most`, is added to u or subtracted from it?
+  bool stays_broken(const std::vector<NT>& d, const NT& most) const
+  {
+    return std::any_of(broken_.begin(), broken_.end(), [&](Index f) { return is_too_long_after(f, d, most); });
+  }
+
   const NT& scale(Index v) const { return scale_[v]; }
   const std::vector<NT>& scales() const { return scale_; }
   NT scaled_length(Index h) const
   {
     return scale_[t_.origin(h)] * length_[t_.edge(h)] * scale_[t_.target(h)];
   }
+
+  std::array<NT, 3> scaled_lengths(Index f) const { return {{scaled_length(3 * f), scaled_length(3 * f + 1), scaled_length(3 * f + 2)}}; }
 
   // Hess E . d at the u last evaluated, equation (10).
   std::vector<NT> hessian_product(const std::vector<NT>& d) const
@@ -146,6 +164,18 @@ protected:
   void set_scale(Index v, const NT& scale) { scale_[v] = scale; }
 
 private:
+  // The long side of `f` against the two others, each at its longest. Both are compared with the long one: the change of u at the end that they
+  // have in common with it cancels.
+  bool is_too_long_after(Index f, const std::vector<NT>& d, const NT& most) const
+  {
+    using std::abs;
+    using std::exp;
+    const std::array<NT, 3> l = scaled_lengths(f);
+    const int k = longest_side(l[0], l[1], l[2]), next = (k + 1) % 3, previous = (k + 2) % 3;
+    const auto growth = [&](int end) { return NT(exp(most * abs(d[t_.origin(3 * f + previous)] - d[t_.origin(3 * f + end)]) / 2)); };
+    return l[next] * growth(k) + l[previous] * growth(next) < l[k];
+  }
+
   // of the middle between shortest and longest length, logarithmically
   int middle_exponent() const
   {
