@@ -188,14 +188,15 @@ public:
 
   // Conjugate gradients for A(w) x = b from x = 0, preconditioned by the kept
   // factor, until no entry of the residual is larger than `tolerance` times the largest of b, or
-  // after `most` iterations; one solution with the factor each. Returns their number.
+  // after `most` iterations, or, if `may_give_up`, as soon as it is foreseen that these do not do; one solution with the factor each.
+  // Returns their number.
   std::size_t conjugate_gradients(const std::vector<double>& w, const Vertex_vector& b, double tolerance,
-                                  std::size_t most, Vertex_vector& x, bool& converged)
+                                  std::size_t most, bool may_give_up, Vertex_vector& x, bool& converged)
   {
     std::size_t rows = 0;
     const Vertex_vector shift = regularization(graph_, w, rows);
     const double goal = tolerance * largest_entry(b);
-    Vertex_vector r = b, z, p;
+    Vertex_vector r = b, z, p, sizes; // sizes of r
     double rz = 0;
     x.assign(b.size(), 0.);
     converged = graph_.number_of_free == 0 || goal == 0;
@@ -231,12 +232,25 @@ public:
         x[v] += step * p[v];
         r[v] -= step * q[v];
       }
-      converged = largest_entry(r) <= goal;
+      sizes.push_back(largest_entry(r));
+      converged = sizes.back() <= goal;
+      if(may_give_up && is_too_slow(sizes, goal, most))
+        return iteration + 1;
     }
     return iteration;
   }
 
 private:
+  // Would more than `most` iterations be needed, if each gained as much as the last three have done? (The first ones gain otherwise.)
+  static bool is_too_slow(const std::vector<double>& sizes, double goal, std::size_t most)
+  {
+    const std::size_t n = sizes.size(), first_judged = 5, span = 3;
+    if(n < first_judged || sizes.back() <= goal)
+      return false;
+    const double gain = std::log(sizes[n - 1 - span] / sizes.back()) / double(span);
+    return !(double(n) + std::log(sizes.back() / goal) / gain <= double(most)) || !(gain > 0);
+  }
+
   // x = A^-1 b on the free vertices
   bool solve_by_factor(const Vertex_vector& b, Vertex_vector& x)
   {

@@ -201,7 +201,7 @@ private:
   // Has a trust region gained nothing to speak of for a while?
   bool is_losing_patience(std::size_t iteration) const
   {
-    const std::size_t a_while = 20;
+    const std::size_t a_while = 10;
     return options_.may_give_up && !energy_.has_flips() && is_lost_ && iteration > last_gain_ + a_while;
   }
 

@@ -16,6 +16,8 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
+#include <CGAL/number_type_config.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,10 +41,9 @@ struct Vertex_patch
   std::vector<std::array<Index, 3> > corners; // of the faces: the number in `vertices` of the corner opposite to each side, or null_index
 };
 
-// What a few vertices make of the whole problem: r, and the lower half of A, by numbers in the patch.
-struct Patch_system
+// The lower half of what a patch has of the matrix A, by numbers in the patch; entries of equal positions add up.
+struct Patch_matrix
 {
-  Vertex_vector residual;
   std::vector<Matrix_position> lower;
   std::vector<double> values;
 };
@@ -157,12 +158,9 @@ private:
     for(const Index v : patch.vertices)
       x.push_back(u[v]);
     move_to(patch, x);
-    for(int step = 0; step < most_steps; ++step)
-    {
-      const Patch_system here = linearize(patch, target);
-      if(!(largest_entry(here.residual) > close) || !move_downhill(patch, target, here, x))
-        break;
-    }
+    Vertex_vector r = residual_on(patch, target);
+    for(int step = 0; step < most_steps && largest_entry(r) > close && move_downhill(patch, target, r, x); ++step)
+      continue;
     for(std::size_t i = 0; i < x.size(); ++i)
       u[patch.vertices[i]] = x[i];
   }
@@ -173,27 +171,39 @@ private:
       this->set_scale(patch.vertices[i], std::exp(x[i] / 2));
   }
 
-  Patch_system linearize(const Vertex_patch& patch, const Vertex_vector& target) const
+  Vertex_vector residual_on(const Vertex_patch& patch, const Vertex_vector& target) const
   {
-    Patch_system result;
+    Vertex_vector result;
     for(const Index v : patch.vertices)
-      result.residual.push_back(-target[v]);
+      result.push_back(-target[v]);
     for(std::size_t i = 0; i < patch.faces.size(); ++i)
     {
       const std::array<double, 3> l = this->scaled_lengths(patch.faces[i]);
-      const Triangle_angles<double> angles = triangle_angles(l[0], l[1], l[2]);
+      const Incircle_form<double> triangle(l[0], l[1], l[2]);
+      const bool is_broken = !triangle.is_triangle || !(triangle.r > 0);
       for(int k = 0; k < 3; ++k)
-      {
-        const Index apex = patch.corners[i][k];
-        if(apex != Triangulation::null_index)
-          result.residual[apex] += angles.angle[k];
-        add_weight(patch.corners[i][(k + 1) % 3], patch.corners[i][(k + 2) % 3], angles.cotangent[k] / 2, result);
-      }
+        if(patch.corners[i][k] != Triangulation::null_index)
+          result[patch.corners[i][k]] += !is_broken ? angle(triangle, k) : k == longest_side(l[0], l[1], l[2]) ? CGAL_PI : 0;
     }
     return result;
   }
 
-  static void add_weight(Index i, Index j, double half, Patch_system& a)
+  Patch_matrix matrix_on(const Vertex_patch& patch) const
+  {
+    Patch_matrix result;
+    for(std::size_t i = 0; i < patch.faces.size(); ++i)
+    {
+      const std::array<double, 3> l = this->scaled_lengths(patch.faces[i]);
+      const Incircle_form<double> triangle(l[0], l[1], l[2]);
+      if(!triangle.is_triangle || !(triangle.r > 0))
+        continue; // its cotangents count as 0
+      for(int k = 0; k < 3; ++k)
+        add_weight(patch.corners[i][(k + 1) % 3], patch.corners[i][(k + 2) % 3], cotangent(triangle, k) / 2, result);
+    }
+    return result;
+  }
+
+  static void add_weight(Index i, Index j, double half, Patch_matrix& a)
   {
     const auto add = [&](Index row, Index column, double value)
     {
@@ -209,13 +219,13 @@ private:
     add(i, j, -half);
   }
 
-  // One step of Newton's method, as far as E does not rise. Returns whether there was one.
-  bool move_downhill(const Vertex_patch& patch, const Vertex_vector& target, const Patch_system& here, Vertex_vector& x)
+  // One step of Newton's method, as far as E does not rise. Returns whether there was one; then r is the residual there.
+  bool move_downhill(const Vertex_patch& patch, const Vertex_vector& target, Vertex_vector& r, Vertex_vector& x)
   {
-    const double longest = 2;   // in u: far away triangles break that would not have to
+    const double longest = 2;     // in u: far away triangles break that would not have to
     const int most_attempts = 30; // each at most 0.7 times as far as the last
-    const Vertex_vector d = newton_step(here);
-    const double slope = dot(here.residual, d);
+    const Vertex_vector d = newton_step(matrix_on(patch), r);
+    const double slope = dot(r, d);
     double t = (std::min)(1., longest / largest_entry(d));
     for(int attempt = 0; attempt < most_attempts && slope > 0 && t > 0; ++attempt)
     {
@@ -223,10 +233,12 @@ private:
       for(std::size_t i = 0; i < x.size(); ++i)
         trial[i] += t * d[i];
       move_to(patch, trial);
-      const double slope_there = dot(linearize(patch, target).residual, d);
+      Vertex_vector r_there = residual_on(patch, target);
+      const double slope_there = dot(r_there, d);
       if(slope_there >= -0.5 * slope)
       {
         x.swap(trial);
+        r.swap(r_there);
         return true;
       }
       const double secant = slope_there < slope ? slope / (slope - slope_there) : 0.1;
@@ -237,23 +249,24 @@ private:
   }
 
   // A^-1 r; r itself where A is singular, as triangles that are broken have no cotangents.
-  static Vertex_vector newton_step(Patch_system system)
+  static Vertex_vector newton_step(Patch_matrix a, const Vertex_vector& r)
   {
-    const std::size_t n = system.residual.size();
+    const std::size_t n = r.size();
     Vertex_vector diagonal(n, 0.);
-    for(std::size_t i = 0; i < system.lower.size(); ++i)
-      if(system.lower[i].first == system.lower[i].second)
-        diagonal[system.lower[i].first] += system.values[i];
+    for(std::size_t i = 0; i < a.lower.size(); ++i)
+      if(a.lower[i].first == a.lower[i].second)
+        diagonal[a.lower[i].first] += a.values[i];
     const double largest = largest_entry(diagonal);
     for(Index i = 0; i < n; ++i)
     {
-      system.lower.emplace_back(i, i);
-      system.values.push_back(1e-12 * largest + (diagonal[i] < 1e-6 * largest || largest == 0 ? 1e-3 : 0));
+      a.lower.emplace_back(i, i);
+      a.values.push_back(1e-12 * largest + (diagonal[i] < 1e-6 * largest || largest == 0 ? 1e-3 : 0));
     }
-    const Wide_factorization<double> factor(Index(n), system.lower, system.values);
-    Vertex_vector d = factor.is_regular() ? factor.solve(system.residual) : system.residual;
-    const double size = largest_entry(d);
-    return size < (std::numeric_limits<double>::max)() && dot(system.residual, d) > 0 ? d : system.residual;
+    const Wide_factorization<double> factor(Index(n), a.lower, a.values);
+    if(!factor.is_regular())
+      return r;
+    const Vertex_vector d = factor.solve(r);
+    return largest_entry(d) < (std::numeric_limits<double>::max)() && dot(r, d) > 0 ? d : r;
   }
 
   const Triangulation& t_;

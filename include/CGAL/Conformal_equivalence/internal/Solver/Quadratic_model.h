@@ -38,11 +38,11 @@ public:
   bool solve(const Vertex_vector& b, double eta, Vertex_vector& d)
   {
     const std::size_t most_with_new_factor = 200;
-    if(is_solved_within(iterations_worth_a_factorization, b, eta, d))
+    if(is_solved_within(iterations_worth_a_factorization, true, b, eta, d))
       return true;
     if(!solver_.factorize(energy_.weights()))
       return false;
-    is_solved_within(most_with_new_factor, b, eta, d);
+    is_solved_within(most_with_new_factor, false, b, eta, d);
     return true;
   }
 
@@ -52,10 +52,10 @@ public:
   void count_linear_iteration() { ++statistics_.number_of_linear_iterations; }
 
 private:
-  bool is_solved_within(std::size_t most, const Vertex_vector& b, double eta, Vertex_vector& d)
+  bool is_solved_within(std::size_t most, bool may_give_up, const Vertex_vector& b, double eta, Vertex_vector& d)
   {
     bool converged = false;
-    statistics_.number_of_linear_iterations += solver_.conjugate_gradients(energy_.weights(), b, eta, most, d, converged);
+    statistics_.number_of_linear_iterations += solver_.conjugate_gradients(energy_.weights(), b, eta, most, may_give_up, d, converged);
     return converged;
   }
 

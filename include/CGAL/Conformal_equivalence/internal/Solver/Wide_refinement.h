@@ -181,9 +181,9 @@ private:
     const std::size_t worth_a_factorization = 2 * iterations_worth_a_factorization;
     const std::size_t most_with_new_factor = 200; // only ends what rounding keeps from converging
     result.statistics.number_of_linear_iterations +=
-      linear_.conjugate_gradients(w, right, accuracy, worth_a_factorization, d, converged);
+      linear_.conjugate_gradients(w, right, accuracy, worth_a_factorization, true, d, converged);
     if(!converged && linear_.factorize(w))
-      result.statistics.number_of_linear_iterations += linear_.conjugate_gradients(w, right, accuracy, most_with_new_factor, d, converged);
+      result.statistics.number_of_linear_iterations += linear_.conjugate_gradients(w, right, accuracy, most_with_new_factor, false, d, converged);
     scales_.center(d);
     for(std::uint32_t v = 0; v < d.size(); ++v)
       if(d[v] != 0)
