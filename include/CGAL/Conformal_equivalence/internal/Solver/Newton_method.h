@@ -77,7 +77,7 @@ public:
         return Status::STOPPED_BY_VISITOR;
       if(iteration == options_.number_of_iterations || (is_careful() && (has_stopped() || eliminate_.is_in_vain())))
         return Status::ITERATIONS_EXHAUSTED;
-      if(is_losing_patience(iteration))
+      if(is_crawling(iteration, u))
       {
         has_given_up_ = true;
         return Status::ITERATIONS_EXHAUSTED;
@@ -117,6 +117,11 @@ private:
   // Near the rounding floor, however high that is, and without gain for a while: what is left to do is up to the wider type.
   bool is_stuck_at_floor(std::size_t iteration, double size, const Vertex_vector& u)
   {
+    if(size <= least_ / 2)
+    {
+      least_ = size;
+      last_gain_ = iteration;
+    }
     if(iteration < last_gain_ + 5 || size > 1)
       return false;
     statistics_.residual_floor = floor_ = measured_floor();
@@ -156,11 +161,6 @@ private:
     statistics_.residuals.push_back(size);
     statistics_.residual = size;
     statistics_.residual_floor = rounding_floor();
-    if(size <= least_ / 2)
-    {
-      least_ = size;
-      last_gain_ = iteration;
-    }
     visitor_.on_iteration(iteration, size);
   }
 
@@ -198,11 +198,29 @@ private:
     return options_.may_give_up && active_set_.empty() && statistics_.residuals.size() > 1 && energy_.stays_broken(d, safe_multiple);
   }
 
-  // Has a trust region gained nothing to speak of for a while?
-  bool is_losing_patience(std::size_t iteration) const
+  // The same in a trust region, where a step may be short just because the region is: will a triangle remain broken at the pace of the last
+  // steps?
+  bool is_crawling(std::size_t iteration, const Vertex_vector& u)
   {
     const std::size_t a_while = 10;
-    return options_.may_give_up && !energy_.has_flips() && is_lost_ && iteration > last_gain_ + a_while;
+    const double safe_multiple = 30;
+    if(!options_.may_give_up || energy_.has_flips() || !is_lost_)
+      return false;
+    if(landmark_.empty())
+      set_landmark(iteration, u);
+    if(iteration < landmark_iteration_ + a_while)
+      return false;
+    Vertex_vector moved(u);
+    for(std::size_t v = 0; v < u.size(); ++v)
+      moved[v] -= landmark_[v];
+    set_landmark(iteration, u);
+    return energy_.stays_broken(moved, safe_multiple);
+  }
+
+  void set_landmark(std::size_t iteration, const Vertex_vector& u)
+  {
+    landmark_ = u;
+    landmark_iteration_ = iteration;
   }
 
   // How steeply E may rise at the end of a step, relative to its fall at the start. Where nothing was gained for a while, not
@@ -323,6 +341,8 @@ private:
   std::size_t last_gain_ = 0;                              // the iteration when it was found
   static constexpr double least_reach = 5;
   double reach_ = least_reach;        // of a step in u, where it is bounded
+  Vertex_vector landmark_;  // u where the trust region was some steps ago
+  std::size_t landmark_iteration_ = 0;
   bool has_given_up_ = false;
   bool is_lost_ = false; // line search has failed among broken triangles
 };
