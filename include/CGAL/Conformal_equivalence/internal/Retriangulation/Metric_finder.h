@@ -98,6 +98,17 @@ public:
   // The triangulation of the result is set only if edges were flipped.
   Metric find(const Conditions& conditions, const Solver_options& options);
 
+  // Takes the triangulation of a metric just found as the one given, for a problem that is nearly the same. What is known of the linear systems
+  // is kept, but for a factor that is that of another triangulation.
+  void go_on_from(const Metric& found)
+  {
+    triangulation_ = found.triangulation;
+    fixed_energy_.reset();
+    linear_has_flips_ = false;
+    if(!found.flips.empty())
+      linear_.forget_factor();
+  }
+
   // Gives the surface away, and what was kept for the next problem. \pre nothing is asked any more
   Triangulation take_triangulation();
 
@@ -150,6 +161,8 @@ private:
       if(options.retriangulation == Retriangulation::NEVER || !may_be_helped_by_flips(result))
         return true;
     }
+    if(foreseen_.empty() && !options.has_come_from_flips)
+      linear_.forget_factor(); // that of an attempt that has gone astray
     const Metric refused = result.status == Status::ANGLE_OUT_OF_RANGE ? result : Metric();
     discard(result, stopwatch.seconds());
     solve_flipping(conditions, options, result);
@@ -226,8 +239,8 @@ private:
       return;
     const Stopwatch stopwatch;
     result.triangulation = triangulation_;
-    if(linear_has_flips_ || foreseen_.empty())
-      linear_.set_edges(triangulation_); // else the factor that is there serves
+    if(linear_has_flips_)
+      linear_.set_edges(triangulation_); // else the factor that is there serves, if there is one
     linear_has_flips_ = true;
     Recording_flip_observer<NT> observer(result.flips, linear_);
     if(!make_delaunay_if_asked(options, observer, result))

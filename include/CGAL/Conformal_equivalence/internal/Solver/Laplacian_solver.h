@@ -145,6 +145,8 @@ public:
     has_factor_ = false;
   }
 
+  void forget_factor() { has_factor_ = false; }
+
   // Holds some of the free vertices. The kept factor still serves.
   void hold(std::vector<char> held) { graph_.held = std::move(held); }
   void hold_none() { graph_.held.clear(); }

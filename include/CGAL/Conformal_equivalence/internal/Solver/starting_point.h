@@ -18,8 +18,14 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// Is the Hessian at u one that serves? Among broken triangles that at u = 0 is the better one.
+inline bool is_good_for_factor(Abstract_energy& energy, const Vertex_vector& u)
+{
+  return largest_entry(u) == 0 || (energy.evaluate(u) && energy.broken_faces().empty());
+}
+
 // Gives the fixed vertices their u, and moves the others along, by the harmonic extension of these steps. The factor, if there is none
-// yet, is that of the Hessian at u = 0. Returns whether there is one, if one was needed.
+// yet, is that of the Hessian at u = 0, unless u need not be moved. Returns whether there is one, if one was needed.
 template <typename NT>
 bool move_to_fixed_factors(Abstract_energy& energy, Laplacian_solver& linear, const Intrinsic_triangulation<NT>& t,
                            const Conformal_conditions<NT>& conditions, Vertex_vector& u)
@@ -29,7 +35,7 @@ bool move_to_fixed_factors(Abstract_energy& energy, Laplacian_solver& linear, co
     if(conditions.is_fixed(v) && !t.is_isolated_vertex(v))
       step[v] = static_cast<double>(conditions.log_scale_factor(v)) - u[v];
   const bool is_moved = largest_entry(step) > 0;
-  if(largest_entry(u) == 0 && !is_moved)
+  if(!is_moved && (linear.has_factor() || is_good_for_factor(energy, u)))
     return true; // the first Newton step will factorize
   if(!linear.has_factor())
   {

@@ -59,6 +59,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -111,32 +112,45 @@ public:
     result.flips = std::move(flips);
     result.unit = typical_spoke(result.triangulation, apex);
     Metric metric;
+    std::unique_ptr<Rest> rest;
     // A nearly flat triangle with an angle of pi - d has two sides that are by d^2 / 8 longer than the third: these are angles of 3e-3 and 1e-3.
-    settle_link(1e-3, Link_bounds{1e-6, 3e-2, most_releases_}, result, metric);
+    settle_link(1e-3, Link_bounds{1e-6, 3e-2, most_releases_}, result, metric, rest);
     if(is_success(result.status))
-      settle_link(finest_estimate_, Link_bounds{1e-7, 1e-2, most_releases_}, result, metric);
+      settle_link(finest_estimate_, Link_bounds{1e-7, 1e-2, most_releases_}, result, metric, rest);
     if(is_success(result.status))
-      settle_precisely(result, metric);
+      settle_precisely(result, metric, rest);
     if(is_success(result.status))
       place(metric, axis, result);
     return result;
   }
 
 private:
+  // The surface without the triangles at the apex, and the solver for it: they last as long as the link is the same.
+  struct Rest
+  {
+    Punctured_surface<NT> surface;
+    Metric_finder<NT> finder;
+
+    Rest(Punctured_surface<NT> s, std::unique_ptr<Factorization> factorization)
+      : surface(std::move(s)), finder(surface.triangulation, std::move(factorization))
+    {}
+  };
+
   // With all the digits there are, and where these are not to be had, as the user wants it.
-  void settle_precisely(Polyhedron& result, Metric& metric) const
+  void settle_precisely(Polyhedron& result, Metric& metric, std::unique_ptr<Rest>& rest) const
   {
     const Link_bounds bounds{0, 1e-5, 2 * most_releases_};
     const Polyhedron rough = result;
     const Metric rough_metric = metric;
-    settle_link(precise_options().gradient_tolerance, bounds, result, metric);
+    settle_link(precise_options().gradient_tolerance, bounds, result, metric, rest);
     if(!is_success(result.status) && result.status != Status::STOPPED_BY_VISITOR)
     {
       const Statistics statistics = result.statistics;
       result = rough;
       result.statistics = statistics;
       metric = rough_metric;
-      settle_link(options_.gradient_tolerance, bounds, result, metric);
+      rest.reset();
+      settle_link(options_.gradient_tolerance, bounds, result, metric, rest);
     }
     if(is_success(result.status))
       settle_strictly(result, metric);
@@ -150,7 +164,8 @@ private:
     Metric strict_metric = metric;
     if(!Apex_star<NT>(strict).exchange(Punctured_surface<NT>(result.triangulation, result.apex), metric, bounds))
       return;
-    settle_link(precise_options().gradient_tolerance, bounds, strict, strict_metric);
+    std::unique_ptr<Rest> strict_rest;
+    settle_link(precise_options().gradient_tolerance, bounds, strict, strict_metric, strict_rest);
     if(!is_success(strict.status))
       return;
     result = std::move(strict);
@@ -158,8 +173,8 @@ private:
   }
 
   // Flattens the rest of the surface and changes the link in turn, until there is nothing to change. Begins at the factors of `metric`,
-  // if it has any.
-  void settle_link(double tolerance, const Link_bounds& bounds, Polyhedron& result, Metric& metric) const
+  // if it has any, and, if there is one, with the `rest` for the link as it is.
+  void settle_link(double tolerance, const Link_bounds& bounds, Polyhedron& result, Metric& metric, std::unique_ptr<Rest>& rest) const
   {
     Solver_options options = precise_options();
     options.gradient_tolerance = tolerance;
@@ -170,21 +185,28 @@ private:
     for(int round = 0; round < most_exchanges_; ++round)
     {
       Apex_star<NT> star(result);
-      star.prepare();
-      const Punctured_surface<NT> rest(result.triangulation, result.apex);
-      if(!rest.is_disk())
+      if(rest)
+        rest->finder.go_on_from(metric);
+      else
       {
-        result = refused(std::move(result), Status::SINGULAR_PROBLEM);
-        return;
+        star.prepare();
+        Punctured_surface<NT> surface(result.triangulation, result.apex);
+        if(!surface.is_disk())
+        {
+          result = refused(std::move(result), Status::SINGULAR_PROBLEM);
+          return;
+        }
+        rest = std::make_unique<Rest>(std::move(surface), make_factorization_());
       }
       options.initial_log_scale_factors = rounded(metric.log_scale_factors);
-      metric = solve(rest.triangulation, conditions(result, rest.triangulation), options);
+      metric = rest->finder.find(conditions(result, rest->finder.triangulation()), options);
       take_over(metric, result);
       if(metric.scale_factors.empty())
         return;
-      star.repeat_flips(rest, metric);
-      if(!star.exchange(rest, metric, bounds))
+      star.repeat_flips(rest->surface, metric);
+      if(!star.exchange(rest->surface, metric, bounds))
         return;
+      rest.reset();
       ++result.number_of_exchanges;
     }
     result = refused(std::move(result), Status::ITERATIONS_EXHAUSTED);
