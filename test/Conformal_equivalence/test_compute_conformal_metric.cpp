@@ -409,6 +409,47 @@ BOOST_AUTO_TEST_CASE(first_newton_step_solves_the_poisson_equation)
   }
 }
 
+// A factor that is that of other weights is given up as soon as it is seen that it does not do within the iterations allowed, and not before
+// that can be seen.
+BOOST_AUTO_TEST_CASE(bad_factors_are_given_up)
+{
+  const Triangulation t = testing::triangulation(testing::hill(12, 1.2));
+  const Conditions conditions(t);
+  std::vector<char> free;
+  std::vector<double> right = testing::random_numbers(t.number_of_vertices(), 1, 3), x;
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    free.push_back(conditions.is_fixed(v) ? 0 : 1);
+  CEi::Laplacian_solver linear(CEi::make_factorization<CE::Default_solver_traits>());
+  linear.set_edges(t);
+  linear.set_free(free);
+  linear.graph().clear_fixed(right);
+  const std::vector<double> good(t.number_of_edges(), 1.);
+  std::vector<double> bad = testing::random_numbers(t.number_of_edges(), 6, 5);
+  for(double& w : bad)
+    w = std::exp(w);
+  const std::size_t most = 20;
+  const double accuracy = 1e-12;
+  bool converged = false;
+  BOOST_REQUIRE(linear.factorize(bad));
+  const std::size_t number = linear.conjugate_gradients(good, right, accuracy, most, true, x, converged);
+  BOOST_CHECK(!converged && number >= 5 && number < most);
+  BOOST_CHECK_EQUAL(linear.conjugate_gradients(good, right, accuracy, most, false, x, converged), most);
+  BOOST_CHECK(!converged);
+
+  // one that is nearly right serves to the end
+  std::vector<double> nearly = good;
+  for(std::size_t e = 0; e < nearly.size(); e += 3)
+    nearly[e] = 1.2;
+  BOOST_REQUIRE(linear.factorize(nearly));
+  for(const bool may_give_up : {true, false})
+  {
+    BOOST_CHECK_LE(linear.conjugate_gradients(good, right, accuracy, most, may_give_up, x, converged), most);
+    BOOST_CHECK(converged);
+    const std::vector<double> product = linear.graph().product(good, x);
+    BOOST_CHECK_LE(largest_difference(product, right), 2 * accuracy); // the entries of `right` are at most 1
+  }
+}
+
 BOOST_AUTO_TEST_CASE(both_strategies_find_the_same)
 {
   for(unsigned seed = 0; seed < 4; ++seed)

@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/conformal_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Patchwise_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/Lobachevsky.h>
 
@@ -24,7 +25,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace CEi = CGAL::Conformal_equivalence::internal;
@@ -675,6 +678,106 @@ BOOST_AUTO_TEST_CASE(hessian_is_positive_semidefinite)
       BOOST_CHECK_GE(form, -64 * eps * size);
     }
   }
+}
+
+// --- patches of a surface --------------------------------------------------------------------------
+
+// Sides 1, 1 and 3: with u = k at the apex the short ones become e^{k/2}, and 3 is as long as both of them at k = 2 log 1.5.
+BOOST_AUTO_TEST_CASE(a_triangle_that_remains_broken)
+{
+  Triangulation t = testing::triangulation(testing::one_triangle({{0, 0, 0}}, {{3, 0, 0}}, {{1, 2, 0}}));
+  const Index h = 0, apex = t.apex(h);
+  t.set_length(t.edge(h), 3);
+  t.set_length(t.edge(h + 1), 1);
+  t.set_length(t.edge(h + 2), 1);
+  CEi::Conformal_energy<double> energy(t);
+  energy.evaluate(std::vector<double>(3, 0.));
+  BOOST_REQUIRE_EQUAL(energy.broken_faces().size(), 1);
+  const double mended = 2 * std::log(1.5);
+  for(const double size : {1e-3, 1., 40.})
+    for(const double sign : {-1., 1.})
+    {
+      std::vector<double> d(3, 7.); // which is the same for all corners, but for the apex
+      d[apex] += sign * size;
+      BOOST_CHECK(energy.stays_broken(d, (1 - 1e-9) * mended / size));
+      BOOST_CHECK(!energy.stays_broken(d, (1 + 1e-9) * mended / size));
+    }
+  BOOST_CHECK(energy.stays_broken(std::vector<double>(3, 5.), 1e3)); // nothing changes its shape
+}
+
+BOOST_AUTO_TEST_CASE(triangles_that_remain_broken_do_so)
+{
+  std::size_t lasting = 0, mending = 0;
+  for(const Triangulation& t : surfaces())
+    for(unsigned seed = 0; seed < 12; ++seed)
+    {
+      const std::vector<double> u = some_u(t, 2 * seed + 1), d = testing::random_numbers(u.size(), 1, 31 + seed);
+      CEi::Conformal_energy<double> energy(t);
+      BOOST_REQUIRE(energy.evaluate(u));
+      const std::vector<Index> broken = energy.broken_faces();
+      for(const double most : {.1, .4, 2.})
+      {
+        const bool is_said = energy.stays_broken(d, most);
+        std::set<Index> remaining(broken.begin(), broken.end()); // at all multiples that are looked at
+        CEi::Conformal_energy<double> there(t);
+        for(double part = -1; part <= 1; part += 1. / 16)
+        {
+          BOOST_REQUIRE(there.evaluate(moved(u, d, part * most)));
+          const std::set<Index> now(there.broken_faces().begin(), there.broken_faces().end());
+          for(auto f = remaining.begin(); f != remaining.end(); )
+            f = now.count(*f) == 0 ? remaining.erase(f) : std::next(f);
+        }
+        BOOST_CHECK(!is_said || !remaining.empty());
+        (is_said ? lasting : mending) += 1;
+      }
+    }
+  BOOST_CHECK(lasting >= 20 && mending >= 20);
+}
+
+// On patches E is minimized: it falls, nothing else is touched, and the angle sums there are as prescribed.
+BOOST_AUTO_TEST_CASE(minimum_on_patches)
+{
+  const double close = 1e-9; // as patches are solved for
+  std::size_t broken = 0;
+  for(const Triangulation& t : {testing::triangulation(testing::hill(6, .6)), testing::triangulation(testing::torus(7, 9)),
+                                testing::triangulation(testing::annulus(3, 9, .3)),
+                                testing::triangulation(testing::together({testing::hill(5, .2), testing::hill(4, .5)}, true))})
+    for(unsigned seed = 1; seed <= 8; ++seed)
+    {
+      const std::size_t n = t.number_of_vertices();
+      CEi::Edge_graph graph;
+      graph.set_edges(t);
+      std::vector<char> is_free(n, 0);
+      for(Index v = 0; v < n; ++v)
+        is_free[v] = !t.is_isolated_vertex(v) && !t.is_border_vertex(v);
+      graph.set_free(is_free);
+      const std::vector<double> target(n, 2 * CGAL_PI), u = testing::random_numbers(n, 1.5, seed);
+      std::vector<Index> seeds = {Index(seed), Index(2 * seed + 11)};
+      if(t.is_isolated_vertex(seeds[1]))
+        seeds.pop_back();
+
+      CEi::Patchwise_energy<double> energy(t);
+      BOOST_REQUIRE(energy.evaluate(u));
+      broken += energy.broken_faces().size();
+      std::vector<double> x = u;
+      energy.minimize_around(seeds, graph, target, x);
+
+      std::vector<char> is_in_patch(n, 0);
+      for(const Index v : seeds)
+        for(Index h = 0; h < t.number_of_halfedges(); ++h)
+          if(t.origin(h) == v || t.target(h) == v)
+            is_in_patch[t.origin(h)] = is_in_patch[t.target(h)] = 1;
+      BOOST_REQUIRE(energy.evaluate(x));
+      for(Index v = 0; v < n; ++v)
+        if(is_in_patch[v] && is_free[v])
+          BOOST_CHECK_SMALL(energy.angle_sums()[v] - target[v], close + testing::layout_angle);
+        else
+          BOOST_CHECK_EQUAL(x[v], u[v]);
+      const auto value = [&](const std::vector<double>& y)
+      { return CGAL::Conformal_equivalence::conformal_energy(t, as<Real>(y), as<Real>(target)); };
+      BOOST_CHECK(value(x) < value(u));
+    }
+  BOOST_CHECK(broken >= 20);
 }
 
 template <typename NT>

@@ -120,8 +120,24 @@ private:
     if(!is_final && may_be_helped_by_flips(result) && may_be_doubled(options))
     {
       discard(result, stopwatch.seconds());
-      solve_on_double(conditions, options, result);
+      if(!goes_on_from_foreseen([&] { solve_on_double(conditions, options, result); }, result))
+      {
+        discard(result, stopwatch.seconds());
+        solve_on_double(conditions, options, result);
+      }
     }
+  }
+
+  // Tries a way that goes on where the last one was given up, if it was. Returns false if it is to be tried again from elsewhere: what was
+  // near to the end of one way may be a bad place for another.
+  template <typename Way>
+  bool goes_on_from_foreseen(const Way& way, const Metric& result)
+  {
+    way();
+    if(result.status != Status::ITERATIONS_EXHAUSTED || foreseen_.empty() || has_given_up_)
+      return true;
+    foreseen_.clear();
+    return false;
   }
 
   // Where there are faces of no area, on the triangulation without these. Returns whether nothing else is to be tried.
@@ -165,7 +181,11 @@ private:
       linear_.forget_factor(); // that of an attempt that has gone astray
     const Metric refused = result.status == Status::ANGLE_OUT_OF_RANGE ? result : Metric();
     discard(result, stopwatch.seconds());
-    solve_flipping(conditions, options, result);
+    if(!goes_on_from_foreseen([&] { solve_flipping(conditions, options, result); }, result))
+    {
+      discard(result, stopwatch.seconds());
+      solve_flipping(conditions, options, result);
+    }
     const bool says_less = refused.status == Status::ANGLE_OUT_OF_RANGE && is_balance_violated(result.status);
     if(says_less)
       result = refused; // it may be the reason why the angles sum up to what cannot be
@@ -366,6 +386,7 @@ private:
 
   void minimize(Refinable_energy<NT>& energy, const Conditions& conditions, const Solver_options& options, bool may_give_up, Metric& result)
   {
+    has_given_up_ = false;
     linear_.set_free(scales_.free_vertices(conditions));
     const Lower_bounds bounds = scales_.lower_bounds(conditions);
     hold_one_of_each(bounds);
@@ -378,7 +399,8 @@ private:
       const Vertex_vector target = targets(conditions);
       Newton_method newton(energy, linear_, target, newton_options(options, energy, may_give_up), result.statistics, options.visitor, bounds);
       result.status = newton(u);
-      if(newton.has_given_up())
+      has_given_up_ = newton.has_given_up();
+      if(has_given_up_)
         foreseen_ = u;
     }
     if(result.status == Status::OK)
@@ -487,6 +509,7 @@ private:
   std::unique_ptr<Fixed_energy<NT> > fixed_energy_;
   Vertex_vector last_u_;
   Vertex_vector foreseen_; // where the last attempt was given up, if any was
+  bool has_given_up_ = false;
   bool linear_has_flips_ = false; // the edges of `linear_` are not those of `triangulation_`
 };
 

@@ -78,10 +78,7 @@ public:
       if(iteration == options_.number_of_iterations || (is_careful() && (has_stopped() || eliminate_.is_in_vain())))
         return Status::ITERATIONS_EXHAUSTED;
       if(is_crawling(iteration, u))
-      {
-        has_given_up_ = true;
         return Status::ITERATIONS_EXHAUSTED;
-      }
       if(!solver_.has_factor() && !solver_.factorize(energy_.weights()))
         return Status::SINGULAR_PROBLEM;
       const bool stepped = options_.strategy == Newton_strategy::LINE_SEARCH ? line_search_step(u)
@@ -96,7 +93,7 @@ public:
     }
   }
 
-  // Was the end foreseen? Then u is as near to it as is of use.
+  // Was the end foreseen, and is u on a straight way to it? Then other ways can go on from there.
   bool has_given_up() const { return has_given_up_; }
 
 private:
