@@ -37,9 +37,18 @@ public:
   // Returns whether there was a factor.
   bool solve(const Vertex_vector& b, double eta, Vertex_vector& d)
   {
+    return solve_by_kept_factor(b, eta, d) || solve_by_new_factor(b, eta, d);
+  }
+
+  // Returns whether the kept factor does. If it does not, d is not what was asked for, but points there.
+  bool solve_by_kept_factor(const Vertex_vector& b, double eta, Vertex_vector& d)
+  {
+    return is_solved_within(iterations_worth_a_factorization, true, b, eta, d);
+  }
+
+  bool solve_by_new_factor(const Vertex_vector& b, double eta, Vertex_vector& d)
+  {
     const std::size_t most_with_new_factor = 200;
-    if(is_solved_within(iterations_worth_a_factorization, true, b, eta, d))
-      return true;
     if(!solver_.factorize(energy_.weights()))
       return false;
     is_solved_within(most_with_new_factor, false, b, eta, d);
