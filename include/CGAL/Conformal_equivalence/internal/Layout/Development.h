@@ -39,6 +39,7 @@ class Development
 public:
   typedef typename Metric::Wide_number Wide;
   typedef Complex_number<Wide> Complex;
+  typedef std::queue<std::pair<Index, Complex> > Queue; // a halfedge both ends of which are placed, and its direction
 
   std::vector<Complex> position;   // by wedge
   std::vector<char> is_laid_out;   // by face
@@ -55,8 +56,7 @@ public:
   // Lays out everything that is connected with `root`.
   void operator()(Index root)
   {
-    std::queue<std::pair<Index, Complex> > queue; // a halfedge both ends of which are placed, and its direction
-
+    Queue queue;
     const Index h = 3 * root;
     const Complex east = {Wide(1), Wide(0)};
     place(origin_wedge(h), Complex{Wide(0), Wide(0)});
@@ -66,16 +66,11 @@ public:
     while(!queue.empty())
     {
       const Index g = queue.front().first;
-      const std::array<Complex, 3> direction = lay_out_triangle(g, queue.front().second);
+      const Complex direction = queue.front().second;
       queue.pop();
-      Index side = g;
-      for(int k = 0; k < 3; ++k, side = t_.next(side))
-      {
-        if(t_.is_border(side) || cut_[t_.edge(side)] || is_laid_out[t_.face(t_.twin(side))])
-          continue;
-        is_laid_out[t_.face(t_.twin(side))] = 1;
-        queue.emplace(t_.twin(side), -direction[k]);
-      }
+      if(g == h && goes_on_beyond(g))
+        queue.emplace(t_.twin(g), -direction);
+      lay_out_triangle(g, direction, queue);
     }
   }
 
@@ -90,20 +85,34 @@ private:
     position[wedge] = z;
   }
 
-  // Places the apex of the triangle of h, where h lies already, in the given
-  // direction. Returns the directions of h, next(h) and previous(h).
-  std::array<Complex, 3> lay_out_triangle(Index h, const Complex& direction)
+  // Places the apex of the triangle of h, where h lies already, in the given direction, and adds the triangles beyond its other two sides to the
+  // queue. Nothing is computed that is not needed for that: every second apex has been placed before, and many triangles have none beyond.
+  void lay_out_triangle(Index h, const Complex& direction, Queue& queue)
   {
-    const Index next = t_.next(h), previous = t_.previous(h);
+    const Index next = t_.next(h), previous = t_.previous(h), apex = wedges_.of_corner[next];
+    const bool next_leads_on = goes_on_beyond(next), previous_leads_on = goes_on_beyond(previous), is_new = !is_placed_[apex];
+    if(!next_leads_on && !previous_leads_on && !is_new)
+      return;
     const Wide length = metric_.wide_scaled_length(previous);
     const Incircle_form<Wide> triangle(metric_.wide_scaled_length(h), metric_.wide_scaled_length(next), length);
-    const Complex at_origin = rotation(triangle, 1), at_target = rotation(triangle, 2);
+    if(next_leads_on)
+      queue.emplace(t_.twin(next), direction * conj(rotation(triangle, 2)));
+    if(!previous_leads_on && !is_new)
+      return;
+    const Complex to_apex = direction * rotation(triangle, 1);
+    if(is_new)
+      place(apex, position[origin_wedge(h)] + length * to_apex);
+    if(previous_leads_on)
+      queue.emplace(t_.twin(previous), to_apex);
+  }
 
-    const Complex to_apex = direction * at_origin;
-    const Complex along_next = direction * -conj(at_target);
-    const Complex& origin = position[origin_wedge(h)];
-    place(wedges_.of_corner[next], origin + length * to_apex);
-    return {{direction, along_next, -to_apex}};
+  // Is the triangle beyond the side h still to be laid out? From now on it counts as laid out.
+  bool goes_on_beyond(Index h)
+  {
+    if(t_.is_border(h) || cut_[t_.edge(h)] || is_laid_out[t_.face(t_.twin(h))])
+      return false;
+    is_laid_out[t_.face(t_.twin(h))] = 1;
+    return true;
   }
 
   const Metric& metric_;

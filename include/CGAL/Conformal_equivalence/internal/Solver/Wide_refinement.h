@@ -87,12 +87,16 @@ public:
     result.status = Status::ITERATIONS_EXHAUSTED;
   }
 
-  // e^{u/2}, and the factors that are fixed
+  // e^{u/2}, rounded to `double` where u is unknown, as it is still to be refined, and as exactly as can be where it is fixed.
   static void begin_at(const Conformal_conditions<NT>& conditions, const Vertex_vector& u, std::vector<Wide_number>& s)
   {
     s.resize(u.size());
     for(std::uint32_t v = 0; v < u.size(); ++v)
-      s[v] = half_exponential(conditions.is_fixed(v) ? Wide_number(conditions.log_scale_factor(v)) : Wide_number(u[v]));
+    {
+      const double rounded = std::exp(u[v] / 2);
+      s[v] = conditions.is_fixed(v) ? half_exponential(Wide_number(conditions.log_scale_factor(v)))
+           : std::isnormal(rounded) ? Wide_number(rounded) : half_exponential(Wide_number(u[v]));
+    }
   }
 
 private:
