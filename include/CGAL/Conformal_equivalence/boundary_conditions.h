@@ -72,11 +72,10 @@ void prescribe_rectangle(const TriangleMesh& tm,
 /// chooses the corners for a rectangle with little distortion. Up to four border vertices with one
 /// triangle are corners; where there are more, only a map with flipped edges makes them straight. The others are chosen among the
 /// vertices of extreme turning of the natural map's border, so that the Dirichlet energy of u (App. E) is least: first exactly for the
-/// linearized problem (12), by trying all choices; then, by solving, corners are exchanged until no single
-/// exchange that the linearized problem does not rule out improves the energy.
+/// linearized problem (12), by trying all choices; then for the problem linearized at the metric of the best choice so far, of which the most
+/// promising choices are solved for, five at most. On meshes with less than 200 vertices no exchange of a single corner is better.
 ///
-/// Time is that of one factorization each for the natural and the straight border, and of some
-/// dozens of solutions with a kept factor, or with flips where there are more than four border vertices with one triangle.
+/// Time is that of some five maps to a rectangle, with flips where the map needs them.
 ///
 /// \param tm a triangle mesh
 /// \param bhd a halfedge of the border of a topological disk; `null_halfedge()` is refused (`WRONG_TOPOLOGY`)

@@ -4,9 +4,9 @@
 // Corners for a rectangle: the choice with the least Dirichlet energy of u
 // (Appendix E of Springborn, Schroeder and Pinkall, 2008).
 //
-// To first order u solves A u = Theta - Theta^ (the Poisson equation (12)), and
-// its energy is u.A u / 2. Moving a corner changes the right-hand side at two
-// vertices: one back-solve for each candidate gives the energies of all choices.
+// To first order u solves A u = Theta - Theta^ (the Poisson equation (12)), so that moving a corner adds to u the difference of two columns of
+// A^-1, and the energy of all choices is one quadratic form in the corners. Its best choice is solved for; the model is made again at the
+// metric found, where it is exact for that choice, and names those that promise less: a few solves, instead of one for every exchange.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_RECTANGLE_CORNERS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_RECTANGLE_CORNERS_H
@@ -20,8 +20,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -33,30 +37,87 @@ struct Rectangle_corners : public Outcome
   std::array<std::uint32_t, 4> corners{};     // in their order along the border
 };
 
+typedef std::array<std::uint32_t, 4> Corner_choice; // positions among the candidates, increasing
+
+// The Dirichlet energy of u, as a function of the corners, for an u that depends on them linearly.
+class Corner_energy_model
+{
+  typedef std::uint32_t Index;
+
+public:
+  Corner_energy_model() = default;
+
+  // u is `straight` if there are no corners, and each corner a adds `added[a]`. `surface` has the weights of the energy.
+  Corner_energy_model(const Intrinsic_triangulation<double>& surface, const std::vector<double>& weights, const Vertex_vector& straight,
+                      const std::vector<Vertex_vector>& added)
+    : linear_(added.size()), quadratic_(added.size(), std::vector<double>(added.size()))
+  {
+    Edge_graph graph;
+    graph.set_edges(surface);
+    graph.set_free(std::vector<char>(surface.number_of_vertices(), 1));
+    const Vertex_vector product = graph.product(weights, straight);
+    constant_ = dot(straight, product) / 2;
+    for(std::size_t a = 0; a < added.size(); ++a)
+    {
+      linear_[a] = dot(added[a], product);
+      const Vertex_vector product_a = graph.product(weights, added[a]);
+      for(std::size_t b = 0; b < added.size(); ++b)
+        quadratic_[a][b] = dot(added[b], product_a) / 2;
+    }
+  }
+
+  double operator()(const Corner_choice& c) const
+  {
+    double sum = constant_;
+    for(const Index a : c)
+    {
+      sum += linear_[a];
+      for(const Index b : c)
+        sum += quadratic_[a][b];
+    }
+    return sum;
+  }
+
+private:
+  double constant_ = 0;
+  std::vector<double> linear_;
+  std::vector<std::vector<double> > quadratic_;
+};
+
 class Rectangle_corner_selection
 {
   typedef std::uint32_t Index;
-  typedef std::array<Index, 4> Choice; // positions in `candidates_`, increasing
+  typedef Corner_choice Choice;
+  typedef Intrinsic_triangulation<double> Triangulation;
+  typedef Conformal_metric<double> Metric;
 
-  // Some 10 000 choices of four, all of which the linearized problem tries: no time beside one factorization.
+  // Some 10 000 choices of four, all of which a model tries: no time beside one factorization.
   static constexpr std::size_t maximum_number_of_candidates_ = 24;
 
   // Newton's method takes some ten steps where a choice is good; one that needs more than this is none of the best.
-  static constexpr unsigned int maximum_number_of_iterations_ = 30;
+  static constexpr std::size_t maximum_number_of_iterations_ = 40;
 
   // Energies need a few digits to be compared, residuals in radians no more than these.
-  static constexpr double gradient_tolerance_ = 1e-8;
+  static constexpr double gradient_tolerance_ = 1e-6;
 
-  // By how much the linearized energy may call an exchange worse and it is tried nevertheless: a quarter.
-  static constexpr double hopeful_ratio_ = 1.25;
+  // A model that promises less than this, relatively, promises nothing: it errs by more.
+  static constexpr double least_promise_ = 1e-3;
 
-  // What improves the energy by less, relatively, is the error of the solution.
-  static constexpr double least_improvement_ = 1e-9;
+  // How much is tried, after the first choice. A few solves do, and of the choices that one model names, two: what is wrong with the
+  // first is as a rule wrong with those after the second. Where the mesh is so small that solves cost nothing, all is tried that may be better.
+  struct Effort
+  {
+    int trials;
+    int trials_of_model;
+    double error_of_exchange; // by how much a model may err, relatively, for an exchange of one corner
+  };
+
+  Effort effort() const { return t_.number_of_vertices() < 200 ? Effort{200, 200, 0.25} : Effort{5, 2, 0.05}; }
 
 public:
   // `border` are the vertices of the border of the disk `t`, in order; `retriangulation` is that of the map for which the corners are
-  Rectangle_corner_selection(const Intrinsic_triangulation<double>& t, const std::vector<Index>& border, Retriangulation retriangulation)
-    : t_(t), border_(border), retriangulation_(retriangulation), solver_(t)
+  Rectangle_corner_selection(const Triangulation& t, const std::vector<Index>& border, Retriangulation retriangulation)
+    : t_(t), border_(border), may_flip_(retriangulation != Retriangulation::NEVER), solver_(t)
   {}
 
   Rectangle_corners operator()()
@@ -71,7 +132,7 @@ public:
         forced.push_back(v);
     // Where border edges are flipped on the double, a vertex with a single triangle may be straight. That takes longer, so that it is not done where
     // there is no need.
-    is_any_free_ = forced.size() > 4 && retriangulation_ != Retriangulation::NEVER;
+    is_any_free_ = forced.size() > 4 && may_flip_;
     if(forced.size() > 4 && !is_any_free_)
     {
       result.status = Status::ANGLE_OUT_OF_RANGE;
@@ -80,9 +141,7 @@ public:
       return result;
     }
     find_candidates();
-    prepare_linear_energy();
-    Choice best = best_linear_choice();
-    improve(best);
+    const Choice best = best_choice();
     result.status = Status::OK;
     for(int k = 0; k < 4; ++k)
       result.corners[k] = border_[candidates_[best[k]]];
@@ -91,7 +150,8 @@ public:
 
 private:
   bool is_forced_vertex(Index v) const { return !is_any_free_ && t_.degree(v) == 1; }
-  bool is_forced(Index candidate) const { return is_forced_vertex(border_[candidates_[candidate]]); }
+
+  // ---- Candidates
 
   // The border vertices (as positions in `border_`) where the natural map turns most: its local
   // maxima first, at most `most_candidates` of them; all forced ones.
@@ -119,164 +179,208 @@ private:
     std::sort(candidates_.begin(), candidates_.end());
   }
 
-  // There are many maps to compare. What is not found soon, or not on this triangulation if there may be one on it, is none of the best.
   Solver_options quickly() const
   {
     Solver_options result;
-    result.retriangulation = is_any_free_ ? retriangulation_ : Retriangulation::NEVER;
+    result.retriangulation = may_flip_ ? Retriangulation::WHEN_NEEDED : Retriangulation::NEVER;
     result.number_of_iterations = maximum_number_of_iterations_;
+    result.gradient_tolerance = gradient_tolerance_;
+    result.is_estimate = true;
     return result;
   }
 
   // pi - angle sum at the border of the natural map; of the surface itself if there is no such map
-  std::vector<double> natural_turning() const
+  std::vector<double> natural_turning()
   {
-    const Conformal_metric<double> metric = Conformal_metric_solver<double>(t_).solve(Conformal_conditions<double>(t_), quickly());
-    const std::vector<double> sums = angle_sums(metric ? apply_log_scale_factors(t_, metric.log_scale_factors) : t_);
+    const Metric metric = solver_.solve(Conformal_conditions<double>(t_), quickly());
+    const std::vector<double> sums = angle_sums(metric ? apply_log_scale_factors(metric.triangulation, metric.log_scale_factors) : t_);
     std::vector<double> turning;
     for(Index v : border_)
-      turning.push_back(CGAL_PI - sums[v]);
+      turning.push_back(CGAL_PI - sums[v] / (metric && metric.is_doubled ? 2 : 1));
     return turning;
   }
 
-  // G[a][b] = e_a . A^-1 e_b and g[a] = e_a . A^-1 b for the straight border b, on the
-  // graph with one vertex held
-  void prepare_linear_energy()
+  // ---- Models
+
+  // For the u of first order, at u = 0.
+  Corner_energy_model model_at_start() const
   {
     Conformal_energy<double> energy(t_, true);
     energy.evaluate(Vertex_vector(t_.number_of_vertices(), 0.));
     Laplacian_solver linear(make_factorization<Default_solver_traits>());
-    linear.set_edges(t_);
-    std::vector<char> free(t_.number_of_vertices(), 1);
+    Vertex_vector straight(t_.number_of_vertices(), 0.);
+    if(!factorize(t_, energy.weights(), linear))
+      return model(straight, std::vector<Vertex_vector>(candidates_.size(), straight));
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      if(t_.is_isolated_vertex(v))
+      if(linear.graph().is_free(v))
+        straight[v] = energy.angle_sums()[v] - (t_.is_border_vertex(v) ? CGAL_PI : 2 * CGAL_PI);
+    Vertex_vector u;
+    linear.precondition(straight, u);
+    return model(u, columns(linear, 1));
+  }
+
+  // At the metric found for a choice.
+  Corner_energy_model model_at(const Metric& metric, const Choice& choice) const
+  {
+    const Triangulation& t = metric.triangulation;
+    Conformal_energy<double> energy(t, true);
+    energy.evaluate(metric.log_scale_factors);
+    Laplacian_solver linear(make_factorization<Default_solver_traits>());
+    Vertex_vector straight(metric.log_scale_factors);
+    straight.resize(t_.number_of_vertices());
+    if(!factorize(t, energy.weights(), linear))
+      return model(straight, std::vector<Vertex_vector>(candidates_.size(), Vertex_vector(straight.size(), 0.)));
+    const std::vector<Vertex_vector> added = columns(linear, metric.is_doubled ? 2 : 1);
+    for(const Index a : choice)
+      for(std::size_t v = 0; v < straight.size(); ++v)
+        straight[v] -= added[a][v];
+    return model(straight, added);
+  }
+
+  // The energy is that of the surface as it is given.
+  Corner_energy_model model(const Vertex_vector& straight, const std::vector<Vertex_vector>& added) const
+  {
+    Conformal_energy<double> energy(t_, true);
+    energy.evaluate(Vertex_vector(t_.number_of_vertices(), 0.));
+    return Corner_energy_model(t_, energy.weights(), straight, added);
+  }
+
+  // A, with one vertex held, as the energy does not see a constant.
+  bool factorize(const Triangulation& t, const std::vector<double>& weights, Laplacian_solver& linear) const
+  {
+    std::vector<char> free(t.number_of_vertices(), 1);
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      if(t.is_isolated_vertex(v))
         free[v] = 0;
     free[border_[0]] = 0;
+    linear.set_edges(t);
     linear.set_free(free);
-    const std::size_t m = candidates_.size();
-    g_.assign(m, 0.);
-    G_.assign(m, std::vector<double>(m, 0.));
-    if(!linear.factorize(energy.weights()))
-      return;
-
-    Vertex_vector straight(t_.number_of_vertices(), 0.), x;
-    for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      if(free[v])
-        straight[v] = energy.angle_sums()[v] - (t_.is_border_vertex(v) ? CGAL_PI : 2 * CGAL_PI);
-    linear.precondition(straight, x);
-    straight_energy_ = dot(straight, x);
-    for(std::size_t a = 0; a < m; ++a)
-      g_[a] = x[border_[candidates_[a]]];
-    for(std::size_t b = 0; b < m; ++b)
-    {
-      Vertex_vector unit(t_.number_of_vertices(), 0.);
-      if(free[border_[candidates_[b]]])
-        unit[border_[candidates_[b]]] = 1;
-      linear.precondition(unit, x);
-      for(std::size_t a = 0; a < m; ++a)
-        G_[a][b] = x[border_[candidates_[a]]];
-    }
+    return linear.factorize(weights);
   }
 
-  // of the linearized u for the right-hand side straight + pi/2 sum e_a
-  double linear_energy(const Choice& c) const
+  // What each candidate adds to u if it becomes a corner, where its angle is smaller by pi / 2; on a surface of two `halves` in each of them.
+  std::vector<Vertex_vector> columns(Laplacian_solver& linear, int halves) const
   {
-    double sum = straight_energy_;
-    for(Index a : c)
+    std::vector<Vertex_vector> result;
+    for(const Index a : candidates_)
     {
-      sum += CGAL_PI * g_[a];
-      for(Index b : c)
-        sum += CGAL_PI * CGAL_PI / 4 * G_[a][b];
+      Vertex_vector right(linear.graph().free_index.size(), 0.), x(right);
+      if(linear.graph().is_free(border_[a]))
+      {
+        right[border_[a]] = halves * CGAL_PI / 2;
+        linear.precondition(right, x);
+      }
+      x.resize(t_.number_of_vertices());
+      result.push_back(std::move(x));
     }
-    return sum;
+    return result;
   }
+
+  // ---- Choices
 
   bool contains_forced(const Choice& c) const
   {
     for(Index a = 0; a < candidates_.size(); ++a)
-      if(is_forced(a) && std::find(c.begin(), c.end(), a) == c.end())
+      if(is_forced_vertex(border_[candidates_[a]]) && std::find(c.begin(), c.end(), a) == c.end())
         return false;
     return true;
   }
 
-  Choice best_linear_choice() const
+  // All that are possible, those of the least energy first.
+  std::vector<std::pair<double, Choice> > ranked(const Corner_energy_model& energy) const
   {
     const Index m = Index(candidates_.size());
-    Choice best{{0, 1, 2, 3}};
-    double least = std::numeric_limits<double>::infinity();
+    std::vector<std::pair<double, Choice> > result;
     Choice c;
     for(c[0] = 0; c[0] < m; ++c[0])
       for(c[1] = c[0] + 1; c[1] < m; ++c[1])
         for(c[2] = c[1] + 1; c[2] < m; ++c[2])
           for(c[3] = c[2] + 1; c[3] < m; ++c[3])
-          {
-            const double e = contains_forced(c) ? linear_energy(c) : std::numeric_limits<double>::infinity();
-            if(e < least)
-            {
-              least = e;
-              best = c;
-            }
-          }
-    return best;
+            if(contains_forced(c))
+              result.emplace_back(energy(c), c);
+    std::sort(result.begin(), result.end());
+    return result;
   }
 
-  // Dirichlet energy of the u that solves; infinite if there is none.
-  double energy(const Choice& c)
+  Metric solve(const Choice& c)
   {
     Conformal_conditions<double> conditions(t_);
     for(Index v : border_)
       conditions.prescribe_angle_sum(v, Exact_angle<double>::pi_times(1));
     for(Index a : c)
       conditions.prescribe_angle_sum(border_[candidates_[a]], Exact_angle<double>::pi_times(1, 2));
-    Solver_options options = quickly();
-    options.gradient_tolerance = gradient_tolerance_;
-    const Conformal_metric<double> metric = solver_.solve(conditions, options);
-    return metric ? dirichlet_energy(t_, metric.log_scale_factors) : std::numeric_limits<double>::infinity();
+    return solver_.solve(conditions, quickly());
   }
 
-  // Exchanges single corners as long as that improves. An exchange is tried if the
-  // linearized energy calls it at most a quarter worse than the present choice.
-  void improve(Choice& best)
+  // Dirichlet energy of the u of a metric; infinite if there is none.
+  double energy(const Metric& metric) const
   {
-    double least = energy(best);
-    for(bool improved = true; improved; )
+    if(!metric)
+      return std::numeric_limits<double>::infinity();
+    Vertex_vector u(metric.log_scale_factors);
+    u.resize(t_.number_of_vertices()); // those of images come after those of the surface
+    return dirichlet_energy(t_, u);
+  }
+
+  // The best of the choices that are solved for: the best one by the first model, and those that are named after that.
+  Choice best_choice()
+  {
+    std::vector<std::pair<double, Choice> > named = ranked(model_at_start());
+    Choice best = named.front().second;
+    Metric metric = solve(best);
+    double least = energy(metric);
+    std::set<Choice> known = {best};
+    for(Effort left = effort(); left.trials > 0 && improve(named, known, left, best, metric, least); )
+      continue;
+    return best;
+  }
+
+  // Tries what a model at the best choice so far names; where there is no metric yet, what was `named` before. Then exchanges of one corner, of
+  // which a model knows best, even if it promises a little more than there is. Returns whether there is a better choice now.
+  bool improve(std::vector<std::pair<double, Choice> >& named, std::set<Choice>& known, Effort& left, Choice& best, Metric& metric, double& least)
+  {
+    if(metric)
+      named = ranked(model_at(metric, best));
+    const auto try_those = [&](double most, std::size_t most_exchanged)
     {
-      improved = false;
-      std::vector<std::pair<double, Choice> > moves;
-      for(int k = 0; k < 4; ++k)
-        for(Index a = 0; a < candidates_.size(); ++a)
-        {
-          Choice c = best;
-          if(is_forced(c[k]) || std::find(c.begin(), c.end(), a) != c.end())
-            continue;
-          c[k] = a;
-          std::sort(c.begin(), c.end());
-          if(linear_energy(c) < hopeful_ratio_ * linear_energy(best))
-            moves.emplace_back(linear_energy(c), c);
-        }
-      std::sort(moves.begin(), moves.end());
-      for(const auto& move : moves)
+      int trials_of_model = left.trials_of_model;
+      for(const auto& candidate : named)
       {
-        const double e = energy(move.second);
-        if(e < least * (1 - least_improvement_))
+        if(left.trials == 0 || trials_of_model == 0 || candidate.first >= most)
+          return false;
+        if(number_of_exchanged(best, candidate.second) > most_exchanged || !known.insert(candidate.second).second)
+          continue;
+        --left.trials;
+        --trials_of_model;
+        Metric found = solve(candidate.second);
+        const double e = energy(found);
+        if(e < least)
         {
           least = e;
-          best = move.second;
-          improved = true;
-          break;
+          best = candidate.second;
+          metric = std::move(found);
+          return true;
         }
       }
-    }
+      return false;
+    };
+    if(!metric)
+      return try_those(least, 4);
+    return try_those((1 - least_promise_) * least, 4) || try_those((1 + left.error_of_exchange) * least, 1);
   }
 
-  const Intrinsic_triangulation<double>& t_;
+  static std::size_t number_of_exchanged(const Choice& a, const Choice& b)
+  {
+    std::vector<Index> remaining;
+    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(remaining));
+    return a.size() - remaining.size();
+  }
+
+  const Triangulation& t_;
   const std::vector<Index>& border_;
-  const Retriangulation retriangulation_;
+  const bool may_flip_;
   bool is_any_free_ = false; // although there are more vertices with a single triangle than corners
   std::vector<Index> candidates_;
-  double straight_energy_ = 0;
-  std::vector<double> g_;
-  std::vector<std::vector<double> > G_;
   Conformal_metric_solver<double> solver_;
 };
 
