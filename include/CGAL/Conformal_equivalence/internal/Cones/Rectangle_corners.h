@@ -163,7 +163,7 @@ private:
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
       if(free[v])
         straight[v] = energy.angle_sums()[v] - (t_.is_border_vertex(v) ? CGAL_PI : 2 * CGAL_PI);
-    linear.precondition(straight, x);
+    linear.solve(straight, x);
     straight_energy_ = dot(straight, x);
     for(std::size_t a = 0; a < m; ++a)
       g_[a] = x[border_[candidates_[a]]];
@@ -172,7 +172,7 @@ private:
       Vertex_vector unit(t_.number_of_vertices(), 0.);
       if(free[border_[candidates_[b]]])
         unit[border_[candidates_[b]]] = 1;
-      linear.precondition(unit, x);
+      linear.solve(unit, x);
       for(std::size_t a = 0; a < m; ++a)
         G_[a][b] = x[border_[candidates_[a]]];
     }

@@ -1,0 +1,370 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The dense part of a multifrontal factorization (I. S. Duff and J. K. Reid, "The multifrontal solution of indefinite sparse symmetric linear
+// equations", 1983): the first columns of a dense symmetric matrix are eliminated. Most fronts of surfaces have a few columns and some dozen rows,
+// for which a call of a BLAS library costs as much as the work. Therefore all is made of one kernel: a strip of up to four columns, from which
+// products of columns before are subtracted, held in registers for as many rows as vectors take.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_DENSE_FRONT_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_DENSE_FRONT_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+// Functions with AVX2 are compiled for x86-64 in any case, and called if the processor has it. What they call must become part of them.
+#if defined(__GNUC__)
+#  define CGAL_CONFORMAL_EQUIVALENCE_INLINE __attribute__((always_inline))
+#  ifdef __x86_64__
+#    define CGAL_CONFORMAL_EQUIVALENCE_AVX2 __attribute__((target("avx2,fma")))
+#  endif
+#else
+#  define CGAL_CONFORMAL_EQUIVALENCE_INLINE
+#endif
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// Numbers by the vector: of so many bytes, where the compiler has vectors, else one by one.
+template <typename Number, int bytes>
+struct Vector_of
+{
+#if defined(__GNUC__)
+  typedef Number type __attribute__((vector_size(bytes)));
+  static constexpr int lanes = bytes / int(sizeof(Number));
+#else
+  typedef Number type;
+  static constexpr int lanes = 1;
+#endif
+};
+
+// What can be done with a front (see below), by vectors of so many bytes.
+template <typename Number, int bytes>
+class Front_kernel
+{
+  typedef typename Vector_of<Number, bytes>::type Vector;
+  static constexpr int lanes = Vector_of<Number, bytes>::lanes;
+
+  // Columns of a strip. Columns after which the rest of the front is made to follow: the more, the less often it is read and written.
+  static constexpr int width = 4, block = 64;
+
+public:
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  bool eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot)
+  {
+    const std::ptrdiff_t size = columns + rows;
+    for(int first = 0; first < columns; first += block)
+    {
+      const int end = (std::min)(first + block, columns);
+      const Number* const factor = panel + first * size;
+      for(int j = first; j < end; j += width)
+      {
+        Number* const strip = panel + j * size + j;
+        subtract_products(strip, size, factor + j, size, int(size) - j, j - first, end - j);
+        if(!eliminate_strip(strip, size, int(size) - j, end - j, least_pivot))
+          return false;
+      }
+      for(int j = end; j < columns; j += width)
+        subtract_products(panel + j * size + j, size, factor + j, size, int(size) - j, end - first, columns - j);
+      for(int j = 0; j < rows; j += width)
+        subtract_products(update + std::ptrdiff_t(j) * rows + j, rows, factor + columns + j, size, rows - j, end - first, rows - j);
+    }
+    return true;
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void solve_forward(const Number* panel, int columns, int rows, Number* x)
+  {
+    const std::ptrdiff_t size = columns + rows;
+    for(int j = 0; j < columns; j += width)
+    {
+      const Number* const l = panel + j * size + j;
+      const int n = (std::min)(int(width), columns - j);
+      for(int q = 0; q < n; ++q)
+      {
+        for(int p = 0; p < q; ++p)
+          x[j + q] -= l[p * size + q] * x[j + p];
+        x[j + q] *= l[q * size + q];
+      }
+      dispatch(n, [&](auto q) CGAL_CONFORMAL_EQUIVALENCE_INLINE { subtract_columns(x + j, l, size, int(size) - j, q); });
+    }
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void solve_backward(const Number* panel, int columns, int rows, Number* x)
+  {
+    const std::ptrdiff_t size = columns + rows;
+    for(int j = (columns - 1) / width * width; j >= 0; j -= width)
+    {
+      const Number* const l = panel + j * size + j;
+      const int n = (std::min)(int(width), columns - j);
+      Number product[width];
+      dispatch(n, [&](auto q) CGAL_CONFORMAL_EQUIVALENCE_INLINE { multiply_columns(x + j, l, size, int(size) - j, product, q); });
+      for(int q = n - 1; q >= 0; --q)
+      {
+        Number sum = x[j + q] - product[q];
+        for(int p = q + 1; p < n; ++p)
+          sum -= l[q * size + p] * x[j + p];
+        x[j + q] = sum * l[q * size + q];
+      }
+    }
+  }
+
+private:
+  // (Vectors are not returned by value: how, depends on the processor.)
+  template <typename From, typename To>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void load(const From* p, To& x) { std::memcpy(&x, p, sizeof(x)); }
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void store(const Vector& x, Number* p) { std::memcpy(p, &x, sizeof(x)); }
+
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void subtract(const Vector& x, Number* p)
+  {
+    Vector difference;
+    load(p, difference);
+    difference -= x;
+    store(difference, p);
+  }
+
+  // Calls action with the integers below n, known at compile time, if n < width, else with those below `width`.
+  template <typename Action>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void dispatch(int n, const Action& action)
+  {
+    switch(n)
+    {
+    case 1: action(std::make_integer_sequence<int, 1>()); break;
+    case 2: action(std::make_integer_sequence<int, 2>()); break;
+    case 3: action(std::make_integer_sequence<int, 3>()); break;
+    default: action(std::make_integer_sequence<int, width>());
+    }
+  }
+
+  // Sets the first n of the numbers at p, n <= lanes; the others stay.
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void store_first(int n, const Vector& x, Number* p)
+  {
+#if defined(__GNUC__)
+    typedef std::conditional_t<sizeof(Number) == 4, std::int32_t, std::int64_t> Integer;
+    constexpr int most_lanes = 16;
+    static constexpr Integer select[2 * most_lanes] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1}; // then zeros
+    typename Vector_of<Integer, bytes>::type mask, bits, old_bits;
+    load(select + most_lanes - n, mask);
+    load(&x, bits);
+    load(p, old_bits);
+    bits = (bits & mask) | (old_bits & ~mask);
+    std::memcpy(p, &bits, sizeof(bits));
+#else
+    if(n > 0)
+      store(x, p);
+#endif
+  }
+
+  // From the strip c, of `rows` rows and up to four columns, the products of the rows of `a` with its first ones are subtracted. There are `depth`
+  // columns in `a`.
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void subtract_products(Number* c, std::ptrdiff_t c_step, const Number* a, std::ptrdiff_t a_step, int rows, int depth, int columns)
+  {
+    if(depth > 0)
+      dispatch(columns, [&](auto q) CGAL_CONFORMAL_EQUIVALENCE_INLINE { subtract_products(c, c_step, a, a_step, rows, depth, q); });
+  }
+
+  template <int... q>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void subtract_products(Number* c, std::ptrdiff_t c_step, const Number* a, std::ptrdiff_t a_step, int rows, int depth,
+                         std::integer_sequence<int, q...> columns)
+  {
+    int i = 0;
+    for(; i + 2 * lanes <= rows; i += 2 * lanes)
+    {
+      Vector s[sizeof...(q)] = {}, t[sizeof...(q)] = {};
+      const Number *x = a + i, *y = a;
+      for(int k = 0; k < depth; ++k, x += a_step, y += a_step)
+      {
+        Vector x0, x1;
+        load(x, x0);
+        load(x + lanes, x1);
+        ((s[q] += x0 * y[q], t[q] += x1 * y[q]), ...);
+      }
+      ((subtract(s[q], c + q * c_step + i), subtract(t[q], c + q * c_step + i + lanes)), ...);
+    }
+    for(; i < rows; i += lanes)
+      subtract_products_of_a_vector(c + i, c_step, a + i, a, a_step, (std::min)(int(lanes), rows - i), depth, columns);
+  }
+
+  template <int... q>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void subtract_products_of_a_vector(Number* c, std::ptrdiff_t c_step, const Number* x, const Number* y, std::ptrdiff_t a_step, int rows, int depth,
+                                     std::integer_sequence<int, q...>)
+  {
+    Vector s[sizeof...(q)] = {}, z;
+    for(int k = 0; k < depth; ++k, x += a_step, y += a_step)
+    {
+      load(x, z);
+      ((s[q] += z * y[q]), ...);
+    }
+    ((load(c + q * c_step, z), z -= s[q], store_first(rows, z, c + q * c_step)), ...);
+  }
+
+  // Eliminates up to four columns by themselves.
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  bool eliminate_strip(Number* c, std::ptrdiff_t step, int rows, int columns, Number& least_pivot)
+  {
+    const int n = (std::min)(int(width), columns);
+    for(int q = 0; q < n; ++q)
+    {
+      Number* const column = c + q * step;
+      for(int i = q; i < n; ++i)
+        for(int p = 0; p < q; ++p)
+          column[i] -= c[p * step + i] * c[p * step + q];
+      const Number pivot = column[q];
+      if(!(pivot > 0 && pivot <= (std::numeric_limits<Number>::max)()))
+        return false;
+      least_pivot = (std::min)(least_pivot, pivot);
+      column[q] = 1 / std::sqrt(pivot);
+      for(int i = q + 1; i < n; ++i)
+        column[i] *= column[q];
+    }
+    dispatch(n, [&](auto q) CGAL_CONFORMAL_EQUIVALENCE_INLINE { eliminate_rows(c, step, rows, q); });
+    return true;
+  }
+
+  // The rows below the first ones of a strip.
+  template <int... q>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void eliminate_rows(Number* c, std::ptrdiff_t step, int rows, std::integer_sequence<int, q...>)
+  {
+    for(int i = sizeof...(q); i < rows; i += lanes)
+    {
+      Vector x[sizeof...(q)];
+      const int n = (std::min)(int(lanes), rows - i);
+      ((load(c + q * step + i, x[q]),
+        eliminate_vector(x, x[q], c + q, step, std::make_integer_sequence<int, q>()),
+        store_first(n, x[q], c + q * step + i)), ...);
+    }
+  }
+
+  // The next column y of vectors, after the columns x; `l` is its row of L.
+  template <int... p>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void eliminate_vector([[maybe_unused]] const Vector* x, Vector& y, const Number* l, std::ptrdiff_t step, std::integer_sequence<int, p...>)
+  {
+    ((y -= x[p] * l[p * step]), ...);
+    y *= l[sizeof...(p) * step];
+  }
+
+  // x -= L x on the rows below a strip of columns, where x is known on the strip
+  template <int... q>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void subtract_columns(Number* x, const Number* l, std::ptrdiff_t step, int rows, std::integer_sequence<int, q...>)
+  {
+    const Number y[] = {x[q]...};
+    for(int i = sizeof...(q); i < rows; i += lanes)
+    {
+      Vector z, column;
+      load(x + i, z);
+      ((load(l + q * step + i, column), z -= column * y[q]), ...);
+      store(z, x + i);
+    }
+  }
+
+  // the transpose of L times x, for a strip of columns
+  template <int... q>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void multiply_columns(const Number* x, const Number* l, std::ptrdiff_t step, int rows, Number* product, std::integer_sequence<int, q...>)
+  {
+    Vector s[sizeof...(q)] = {};
+    for(int i = sizeof...(q); i < rows; i += lanes)
+    {
+      Vector z, column;
+      load(x + i, z);
+      ((load(l + q * step + i, column), s[q] += column * z), ...);
+    }
+    ((product[q] = sum(s[q])), ...);
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static Number sum(const Vector& x)
+  {
+    Number entries[lanes], result = 0;
+    std::memcpy(entries, &x, sizeof(x));
+    for(Number entry : entries)
+      result += entry;
+    return result;
+  }
+};
+
+// A front has `columns` columns to eliminate, and `rows` rows below. The panel holds the former, by columns of columns + rows numbers; the
+// update holds the others, by columns of `rows` numbers. Of both the lower half counts. After the elimination the panel is the one of L, but with
+// the reciprocals of its diagonal.
+//
+// Vectors reach beyond the end of columns: what is read there does not matter, and is not changed. So behind each array there must be
+// `overhang` numbers, which are finite.
+//
+// The last bits of the results depend on whether the processor has AVX2.
+template <typename Number>
+class Dense_front
+{
+  typedef Front_kernel<Number, 16> Basic_kernel;
+  typedef Front_kernel<Number, 32> Wide_kernel;
+
+public:
+  static constexpr std::ptrdiff_t overhang = 16;
+
+  // Returns whether all pivots are positive and finite. `least_pivot` becomes the smallest one, if that is less.
+  static bool eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot)
+  {
+    return has_wide_vectors() ? wide_eliminate(panel, update, columns, rows, least_pivot)
+                              : Basic_kernel::eliminate(panel, update, columns, rows, least_pivot);
+  }
+
+  // Solves with the panel's columns of L: x on the columns, and subtracts what they contribute to the rows below.
+  static void solve_forward(const Number* panel, int columns, int rows, Number* x)
+  {
+    return has_wide_vectors() ? wide_solve_forward(panel, columns, rows, x) : Basic_kernel::solve_forward(panel, columns, rows, x);
+  }
+
+  // Solves with their transpose: x on the columns, where it is known on the rows below.
+  static void solve_backward(const Number* panel, int columns, int rows, Number* x)
+  {
+    return has_wide_vectors() ? wide_solve_backward(panel, columns, rows, x) : Basic_kernel::solve_backward(panel, columns, rows, x);
+  }
+
+private:
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_AVX2
+  static bool has_wide_vectors()
+  {
+    static const bool result = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    return result;
+  }
+#else
+#  define CGAL_CONFORMAL_EQUIVALENCE_AVX2
+  static constexpr bool has_wide_vectors() { return false; }
+#endif
+
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 static bool wide_eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot)
+  {
+    return Wide_kernel::eliminate(panel, update, columns, rows, least_pivot);
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 static void wide_solve_forward(const Number* panel, int columns, int rows, Number* x)
+  {
+    Wide_kernel::solve_forward(panel, columns, rows, x);
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 static void wide_solve_backward(const Number* panel, int columns, int rows, Number* x)
+  {
+    Wide_kernel::solve_backward(panel, columns, rows, x);
+  }
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#undef CGAL_CONFORMAL_EQUIVALENCE_INLINE
+#undef CGAL_CONFORMAL_EQUIVALENCE_AVX2
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_DENSE_FRONT_H
