@@ -11,6 +11,7 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+template std::unique_ptr<Factorization> make_factorization(const Multifrontal_solver_traits&);
 template std::unique_ptr<Factorization> make_factorization(const Simplicial_solver_traits&);
 template void Mixed_precision_factor<float, double>::analyze(const Lower_half&);
 template bool Mixed_precision_factor<float, double>::factorize(Lower_half);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 /// \file Multifrontal_solver_traits.h
-/// The sparse Cholesky factorization of this package.
+/// The sparse Cholesky factorization of this package, which it uses unless told otherwise.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_MULTIFRONTAL_SOLVER_TRAITS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_MULTIFRONTAL_SOLVER_TRAITS_H
@@ -110,6 +110,10 @@ private:
 
   Factor factor_;
 };
+
+/// \ingroup PkgConformalEquivalenceSolver
+/// The solver used where none is named.
+typedef Multifrontal_solver_traits Default_solver_traits;
 
 } // namespace Conformal_equivalence
 } // namespace CGAL

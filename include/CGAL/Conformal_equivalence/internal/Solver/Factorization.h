@@ -7,6 +7,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_FACTORIZATION_H
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+#include <CGAL/Conformal_equivalence/Multifrontal_solver_traits.h>
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <Eigen/SparseCore>
@@ -143,6 +144,7 @@ Factorization_maker factorization_maker(SolverTraits traits = SolverTraits())
 }
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template std::unique_ptr<Factorization> make_factorization(const Multifrontal_solver_traits&);
 extern template std::unique_ptr<Factorization> make_factorization(const Simplicial_solver_traits&);
 #endif
 
