@@ -54,27 +54,27 @@ class Front_kernel
 
   // Columns of a strip. Columns after which the rest of the front is made to follow: the more, the less often it is read and written.
   static constexpr int width = 4, block = 64;
+  typedef std::make_integer_sequence<int, width> Strip;
 
 public:
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
   bool eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot)
   {
-    const std::ptrdiff_t size = columns + rows;
+    const int size = columns + rows;
     for(int first = 0; first < columns; first += block)
     {
       const int end = (std::min)(first + block, columns);
-      const Number* const factor = panel + first * size;
-      for(int j = first; j < end; j += width)
+      for(int j = first; j < size; j += width)
       {
-        Number* const strip = panel + j * size + j;
-        subtract_products(strip, size, factor + j, size, int(size) - j, j - first, end - j);
-        if(!eliminate_strip(strip, size, int(size) - j, end - j, least_pivot))
+        const bool is_in_panel = j < columns;
+        const int step = is_in_panel ? size : rows, stop = j < end ? end : is_in_panel ? columns : size, n = (std::min)(int(width), stop - j);
+        Number* const strip = is_in_panel ? panel + std::ptrdiff_t(j) * size + j : update + std::ptrdiff_t(j - columns) * rows + j - columns;
+        subtract_products(strip, step, panel + std::ptrdiff_t(first) * size + j, size, size - j, (std::min)(j, end) - first, n, Strip());
+        if(j < end && !eliminate_strip(strip, size, size - j, n, least_pivot))
           return false;
+        if(n < width) // the next strip begins at the next kind of columns
+          j = stop - width;
       }
-      for(int j = end; j < columns; j += width)
-        subtract_products(panel + j * size + j, size, factor + j, size, int(size) - j, end - first, columns - j);
-      for(int j = 0; j < rows; j += width)
-        subtract_products(update + std::ptrdiff_t(j) * rows + j, rows, factor + columns + j, size, rows - j, end - first, rows - j);
     }
     return true;
   }
@@ -93,7 +93,7 @@ public:
           x[j + q] -= l[p * size + q] * x[j + p];
         x[j + q] *= l[q * size + q];
       }
-      dispatch(n, [&](auto q) CGAL_CONFORMAL_EQUIVALENCE_INLINE { subtract_columns(x + j, l, size, int(size) - j, q); });
+      subtract_columns(x + j, l, size, int(size) - j, n, Strip());
     }
   }
 
@@ -106,7 +106,7 @@ public:
       const Number* const l = panel + j * size + j;
       const int n = (std::min)(int(width), columns - j);
       Number product[width];
-      dispatch(n, [&](auto q) CGAL_CONFORMAL_EQUIVALENCE_INLINE { multiply_columns(x + j, l, size, int(size) - j, product, q); });
+      multiply_columns(x + j, l, size, int(size) - j, n, product, Strip());
       for(int q = n - 1; q >= 0; --q)
       {
         Number sum = x[j + q] - product[q];
@@ -131,20 +131,7 @@ private:
     store(difference, p);
   }
 
-  // Calls action with the integers below n, known at compile time, if n < width, else with those below `width`.
-  template <typename Action>
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void dispatch(int n, const Action& action)
-  {
-    switch(n)
-    {
-    case 1: action(std::make_integer_sequence<int, 1>()); break;
-    case 2: action(std::make_integer_sequence<int, 2>()); break;
-    case 3: action(std::make_integer_sequence<int, 3>()); break;
-    default: action(std::make_integer_sequence<int, width>());
-    }
-  }
-
-  // Sets the first n of the numbers at p, n <= lanes; the others stay.
+  // Sets the first n of the numbers at p; the others stay.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static void store_first(int n, const Vector& x, Number* p)
   {
 #if defined(__GNUC__)
@@ -152,7 +139,7 @@ private:
     constexpr int most_lanes = 16;
     static constexpr Integer select[2 * most_lanes] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1}; // then zeros
     typename Vector_of<Integer, bytes>::type mask, bits, old_bits;
-    load(select + most_lanes - n, mask);
+    load(select + most_lanes - (std::min)(n, int(lanes)), mask);
     load(&x, bits);
     load(p, old_bits);
     bits = (bits & mask) | (old_bits & ~mask);
@@ -163,61 +150,49 @@ private:
 #endif
   }
 
-  // From the strip c, of `rows` rows and up to four columns, the products of the rows of `a` with its first ones are subtracted. There are `depth`
-  // columns in `a`.
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void subtract_products(Number* c, std::ptrdiff_t c_step, const Number* a, std::ptrdiff_t a_step, int rows, int depth, int columns)
-  {
-    if(depth > 0)
-      dispatch(columns, [&](auto q) CGAL_CONFORMAL_EQUIVALENCE_INLINE { subtract_products(c, c_step, a, a_step, rows, depth, q); });
-  }
-
+  // From the strip c, of `rows` rows and `columns` columns, the products of the rows of `a` with its first ones are subtracted. There are `depth`
+  // columns in `a`. (What is computed for columns that a narrow strip does not have is thrown away.)
   template <int... q>
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void subtract_products(Number* c, std::ptrdiff_t c_step, const Number* a, std::ptrdiff_t a_step, int rows, int depth,
-                         std::integer_sequence<int, q...> columns)
+  void subtract_products(Number* c, std::ptrdiff_t c_step, const Number* a, std::ptrdiff_t a_step, int rows, int depth, int columns,
+                         std::integer_sequence<int, q...>)
   {
+    if(depth == 0)
+      return;
     int i = 0;
     for(; i + 2 * lanes <= rows; i += 2 * lanes)
     {
-      Vector s[sizeof...(q)] = {}, t[sizeof...(q)] = {};
+      Vector s[width] = {}, t[width] = {}, x0, x1;
       const Number *x = a + i, *y = a;
       for(int k = 0; k < depth; ++k, x += a_step, y += a_step)
       {
-        Vector x0, x1;
         load(x, x0);
         load(x + lanes, x1);
         ((s[q] += x0 * y[q], t[q] += x1 * y[q]), ...);
       }
-      ((subtract(s[q], c + q * c_step + i), subtract(t[q], c + q * c_step + i + lanes)), ...);
+      ((q < columns ? (subtract(s[q], c + q * c_step + i), subtract(t[q], c + q * c_step + i + lanes)) : void()), ...);
     }
     for(; i < rows; i += lanes)
-      subtract_products_of_a_vector(c + i, c_step, a + i, a, a_step, (std::min)(int(lanes), rows - i), depth, columns);
-  }
-
-  template <int... q>
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void subtract_products_of_a_vector(Number* c, std::ptrdiff_t c_step, const Number* x, const Number* y, std::ptrdiff_t a_step, int rows, int depth,
-                                     std::integer_sequence<int, q...>)
-  {
-    Vector s[sizeof...(q)] = {}, z;
-    for(int k = 0; k < depth; ++k, x += a_step, y += a_step)
     {
-      load(x, z);
-      ((s[q] += z * y[q]), ...);
+      Vector s[width] = {}, z;
+      const Number *x = a + i, *y = a;
+      for(int k = 0; k < depth; ++k, x += a_step, y += a_step)
+      {
+        load(x, z);
+        ((s[q] += z * y[q]), ...);
+      }
+      ((q < columns ? (load(c + q * c_step + i, z), z -= s[q], store_first(rows - i, z, c + q * c_step + i)) : void()), ...);
     }
-    ((load(c + q * c_step, z), z -= s[q], store_first(rows, z, c + q * c_step)), ...);
   }
 
   // Eliminates up to four columns by themselves.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
   bool eliminate_strip(Number* c, std::ptrdiff_t step, int rows, int columns, Number& least_pivot)
   {
-    const int n = (std::min)(int(width), columns);
-    for(int q = 0; q < n; ++q)
+    for(int q = 0; q < columns; ++q)
     {
       Number* const column = c + q * step;
-      for(int i = q; i < n; ++i)
+      for(int i = q; i < columns; ++i)
         for(int p = 0; p < q; ++p)
           column[i] -= c[p * step + i] * c[p * step + q];
       const Number pivot = column[q];
@@ -225,26 +200,23 @@ private:
         return false;
       least_pivot = (std::min)(least_pivot, pivot);
       column[q] = 1 / std::sqrt(pivot);
-      for(int i = q + 1; i < n; ++i)
+      for(int i = q + 1; i < columns; ++i)
         column[i] *= column[q];
     }
-    dispatch(n, [&](auto q) CGAL_CONFORMAL_EQUIVALENCE_INLINE { eliminate_rows(c, step, rows, q); });
+    eliminate_rows(c, step, rows, columns, Strip());
     return true;
   }
 
   // The rows below the first ones of a strip.
   template <int... q>
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void eliminate_rows(Number* c, std::ptrdiff_t step, int rows, std::integer_sequence<int, q...>)
+  void eliminate_rows(Number* c, std::ptrdiff_t step, int rows, int columns, std::integer_sequence<int, q...>)
   {
-    for(int i = sizeof...(q); i < rows; i += lanes)
-    {
-      Vector x[sizeof...(q)];
-      const int n = (std::min)(int(lanes), rows - i);
-      ((load(c + q * step + i, x[q]),
-        eliminate_vector(x, x[q], c + q, step, std::make_integer_sequence<int, q>()),
-        store_first(n, x[q], c + q * step + i)), ...);
-    }
+    Vector x[width];
+    for(int i = columns; i < rows; i += lanes)
+      ((q < columns ? (load(c + q * step + i, x[q]),
+                       eliminate_vector(x, x[q], c + q, step, std::make_integer_sequence<int, q>()),
+                       store_first(rows - i, x[q], c + q * step + i)) : void()), ...);
   }
 
   // The next column y of vectors, after the columns x; `l` is its row of L.
@@ -259,14 +231,15 @@ private:
   // x -= L x on the rows below a strip of columns, where x is known on the strip
   template <int... q>
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void subtract_columns(Number* x, const Number* l, std::ptrdiff_t step, int rows, std::integer_sequence<int, q...>)
+  void subtract_columns(Number* x, const Number* l, std::ptrdiff_t step, int rows, int columns, std::integer_sequence<int, q...>)
   {
-    const Number y[] = {x[q]...};
-    for(int i = sizeof...(q); i < rows; i += lanes)
+    const Number y[] = {q < columns ? x[q] : Number(0)...};
+    const Number* const column[] = {l + (std::min)(q, columns - 1) * step...};
+    for(int i = columns; i < rows; i += lanes)
     {
-      Vector z, column;
+      Vector z, entries;
       load(x + i, z);
-      ((load(l + q * step + i, column), z -= column * y[q]), ...);
+      ((load(column[q] + i, entries), z -= entries * y[q]), ...);
       store(z, x + i);
     }
   }
@@ -274,14 +247,15 @@ private:
   // the transpose of L times x, for a strip of columns
   template <int... q>
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void multiply_columns(const Number* x, const Number* l, std::ptrdiff_t step, int rows, Number* product, std::integer_sequence<int, q...>)
+  void multiply_columns(const Number* x, const Number* l, std::ptrdiff_t step, int rows, int columns, Number* product,
+                        std::integer_sequence<int, q...>)
   {
-    Vector s[sizeof...(q)] = {};
-    for(int i = sizeof...(q); i < rows; i += lanes)
+    const Number* const column[] = {l + (std::min)(q, columns - 1) * step...};
+    Vector s[width] = {}, z, entries;
+    for(int i = columns; i < rows; i += lanes)
     {
-      Vector z, column;
       load(x + i, z);
-      ((load(l + q * step + i, column), s[q] += column * z), ...);
+      ((load(column[q] + i, entries), s[q] += entries * z), ...);
     }
     ((product[q] = sum(s[q])), ...);
   }
