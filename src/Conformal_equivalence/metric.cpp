@@ -5,12 +5,18 @@
 
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Mixed_precision_factor.h>
 
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+template std::unique_ptr<Factorization> make_factorization(const Multifrontal_solver_traits&);
 template std::unique_ptr<Factorization> make_factorization(const Simplicial_solver_traits&);
+template void Mixed_precision_factor<float, double>::analyze(const Lower_half&);
+template bool Mixed_precision_factor<float, double>::factorize(Lower_half);
+template bool Mixed_precision_factor<float, double>::precondition(std::vector<double>&);
+template bool Mixed_precision_factor<float, double>::solve(std::vector<double>&);
 
 template Metric_finder<double>::Metric_finder(Intrinsic_triangulation<double>, std::unique_ptr<Factorization>);
 template Metric_finder<double>::~Metric_finder();

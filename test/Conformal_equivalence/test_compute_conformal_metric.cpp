@@ -8,6 +8,7 @@
 #include "include/index_level.h"
 #include "include/wide_angle_sums.h"
 
+#include <CGAL/Conformal_equivalence/Multifrontal_solver_traits.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
 
@@ -15,7 +16,11 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <new>
+#include <numeric>
+#include <random>
+#include <set>
 
 namespace CE = CGAL::Conformal_equivalence;
 namespace CEi = CE::internal;
@@ -327,8 +332,10 @@ BOOST_AUTO_TEST_CASE(warm_start_needs_no_new_factor)
   BOOST_CHECK_EQUAL(solved(t, natural, params::initial_log_scale_factor_map(initial)).statistics.number_of_iterations, 0);
 }
 
+typedef std::vector<std::vector<double> > Dense_matrix;
+
 // Solves A x = b, dense.
-std::vector<double> solution(std::vector<std::vector<double> > a, std::vector<double> b)
+std::vector<double> solution(Dense_matrix a, std::vector<double> b)
 {
   const std::size_t n = b.size();
   for(std::size_t k = 0; k < n; ++k)
@@ -345,12 +352,11 @@ std::vector<double> solution(std::vector<std::vector<double> > a, std::vector<do
   return b;
 }
 
-// The solution of the Poisson equation (12), Delta u = -K, u = 0 on the border, with the cot-Laplace operator
-// 1/2 sum w_ij (u_i - u_j).
-std::vector<double> poisson_solution(const Triangulation& t)
+// The cot-Laplace operator 1/2 sum w_ij (u_i - u_j) of all vertices.
+Dense_matrix laplace_matrix(const Triangulation& t)
 {
   const std::size_t n = t.number_of_vertices();
-  std::vector<std::vector<double> > a(n, std::vector<double>(n, 0.));
+  Dense_matrix a(n, std::vector<double>(n, 0.));
   for(Index h = 0; h < t.number_of_halfedges(); ++h)
   {
     const double x = t.halfedge_length(h), y = t.halfedge_length(t.next(h)), z = t.halfedge_length(t.previous(h));
@@ -362,13 +368,20 @@ std::vector<double> poisson_solution(const Triangulation& t)
     a[i][j] -= half_cotangent;
     a[j][i] -= half_cotangent;
   }
+  return a;
+}
+
+// The solution of the Poisson equation (12), Delta u = -K, u = 0 on the border.
+std::vector<double> poisson_solution(const Triangulation& t)
+{
+  Dense_matrix a = laplace_matrix(t);
   std::vector<double> b = CE::discrete_curvatures(t);
-  for(Index v = 0; v < n; ++v)
+  for(Index v = 0; v < b.size(); ++v)
   {
     b[v] = t.is_border_vertex(v) ? 0 : -b[v];
     if(t.is_border_vertex(v))
     {
-      a[v].assign(n, 0.);
+      a[v].assign(b.size(), 0.);
       a[v][v] = 1;
     }
   }
@@ -389,7 +402,7 @@ BOOST_AUTO_TEST_CASE(first_newton_step_solves_the_poisson_equation)
       target.push_back(conditions.is_fixed(v) ? 0 : 2 * CGAL_PI);
     }
     CEi::Fixed_energy<double> energy(t);
-    CEi::Laplacian_solver linear(CEi::make_factorization<CE::Default_solver_traits>());
+    CEi::Laplacian_solver linear(CEi::make_factorization<CE::Simplicial_solver_traits>());
     linear.set_edges(t);
     linear.set_free(free);
     CEi::Newton_options options;
@@ -497,6 +510,254 @@ BOOST_AUTO_TEST_CASE(rounding_is_admitted)
   BOOST_CHECK_LE(largest_difference(metric.log_scale_factors, solved(t, conditions).log_scale_factors), solved_u);
 }
 
+// ---- the factorization of the package
+
+CEi::Lower_half sparse(const Dense_matrix& a)
+{
+  CEi::Lower_half result;
+  for(std::size_t j = 0; j < a.size(); ++j)
+  {
+    for(std::size_t i = j; i < a.size(); ++i)
+      if(a[i][j] != 0 || i == j)
+      {
+        result.row.push_back(int(i));
+        result.value.push_back(a[i][j]);
+      }
+    result.first.push_back(int(result.row.size()));
+  }
+  return result;
+}
+
+// About so many entries in a row, some of them in rows of their own blocks only; positive definite, as its diagonal dominates.
+Dense_matrix random_matrix(std::size_t n, double entries_in_a_row, unsigned seed)
+{
+  testing::Random random(seed);
+  Dense_matrix a(n, std::vector<double>(n, 0.));
+  for(std::size_t i = 0; i < n; ++i)
+    a[i][i] = random(1e-3, 1);
+  for(std::size_t i = 0; i < n; ++i)
+    for(std::size_t j = 0; j < i; ++j)
+      if(random(0, double(n)) < entries_in_a_row && (seed % 2 == 0 || i % 3 == j % 3))
+      {
+        a[i][j] = a[j][i] = random(-1, 1);
+        a[i][i] += std::abs(a[i][j]);
+        a[j][j] += std::abs(a[i][j]);
+      }
+  return a;
+}
+
+// The matrix of all inner vertices.
+Dense_matrix laplacian(const Triangulation& t)
+{
+  std::vector<Index> inner;
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(!t.is_border_vertex(v))
+      inner.push_back(v);
+  const Dense_matrix all = laplace_matrix(t);
+  Dense_matrix result;
+  for(const Index i : inner)
+  {
+    result.emplace_back();
+    for(const Index j : inner)
+      result.back().push_back(all[i][j]);
+  }
+  return result;
+}
+
+CEi::Elimination_order random_order(std::size_t n, unsigned seed)
+{
+  std::vector<int> unknowns(n);
+  std::iota(unknowns.begin(), unknowns.end(), 0);
+  std::shuffle(unknowns.begin(), unknowns.end(), std::mt19937(seed));
+  return CEi::Elimination_order(unknowns);
+}
+
+// What is computed solves (A + D) x = b with |D_ij| <= (3 n + 1) u sqrt(A_ii A_jj), where u is the unit roundoff (N. J. Higham, Accuracy and
+// Stability of Numerical Algorithms, 2002, theorem 10.4 with |R^T| |R| bounded by Cauchy and Schwarz); in single precision the entries of A and b
+// and those of x are rounded, too.
+template <typename Number>
+void check_backward_error(const Dense_matrix& a, const CEi::Elimination_order& order)
+{
+  const CEi::Lower_half lower = sparse(a);
+  CEi::Multifrontal_factor<Number> factor(std::make_shared<CEi::Symbolic_factor>(lower, order));
+  for(int repetition = 0; repetition < 2; ++repetition) // memory is used again
+    BOOST_REQUIRE(factor.factorize(lower));
+  const double roundoff = double(std::numeric_limits<Number>::epsilon()) / 2, n = double(a.size());
+  for(unsigned seed = 0; seed < 3; ++seed)
+  {
+    std::vector<double> b = testing::random_numbers(a.size(), 1, seed), x;
+    for(std::size_t i = 0; i < a.size(); ++i)
+      b[i] *= std::sqrt(a[i][i]);
+    x = b;
+    factor.solve(x);
+    double size = 0, largest_b = 0;
+    for(std::size_t j = 0; j < a.size(); ++j)
+    {
+      size += std::sqrt(a[j][j]) * std::abs(x[j]);
+      largest_b = (std::max)(largest_b, std::abs(b[j]) / std::sqrt(a[j][j]));
+    }
+    for(std::size_t i = 0; i < a.size(); ++i)
+    {
+      double difference = b[i] / std::sqrt(a[i][i]);
+      for(std::size_t j = 0; j < a.size(); ++j)
+        difference -= a[i][j] / std::sqrt(a[i][i]) * x[j];
+      BOOST_CHECK_LE(std::abs(difference), (3 * n + 5) * roundoff * (size + largest_b));
+    }
+  }
+}
+
+void check_backward_errors(const Dense_matrix& a)
+{
+  check_backward_error<double>(a, CEi::Elimination_order(sparse(a)));
+  check_backward_error<float>(a, CEi::Elimination_order(sparse(a)));
+  check_backward_error<double>(a, random_order(a.size(), 1));
+  check_backward_error<float>(a, random_order(a.size(), 2));
+}
+
+BOOST_AUTO_TEST_CASE(factor_of_random_matrices)
+{
+  for(const std::size_t n : {0, 1, 2, 3, 5, 9, 20, 50, 130})
+    for(const double entries : {0., 1., 3., 10., 1000.}) // diagonal ... dense, which makes fronts of several blocks
+      for(unsigned seed = 0; seed < 3; ++seed)
+        check_backward_errors(random_matrix(n, entries, seed));
+}
+
+BOOST_AUTO_TEST_CASE(factor_of_laplacians)
+{
+  for(const testing::Soup& soup : {testing::hill(14, .8), testing::annulus(5, 40, .3), testing::random_height_field(16, .5, 3)})
+    check_backward_errors(laplacian(testing::triangulation(soup)));
+}
+
+// Scaling by powers of two changes nothing but exponents.
+BOOST_AUTO_TEST_CASE(factor_of_numbers_of_any_size)
+{
+  const Dense_matrix a = random_matrix(30, 4, 6);
+  testing::Random random(1);
+  std::vector<double> scale(a.size());
+  for(double& s : scale)
+    s = std::ldexp(1., int(random(-240, 240)));
+  Dense_matrix scaled = a;
+  for(std::size_t i = 0; i < a.size(); ++i)
+    for(std::size_t j = 0; j < a.size(); ++j)
+      scaled[i][j] *= scale[i] * scale[j];
+  CEi::Mixed_precision_factor<float, double> factor, factor_of_scaled;
+  factor.analyze(sparse(a));
+  factor_of_scaled.analyze(sparse(a));
+  BOOST_REQUIRE(factor.factorize(sparse(a)));
+  BOOST_REQUIRE(factor_of_scaled.factorize(sparse(scaled)));
+  for(const bool is_precise : {false, true})
+  {
+    std::vector<double> x = testing::random_numbers(a.size(), 1, 3), y = x;
+    for(std::size_t i = 0; i < a.size(); ++i)
+      y[i] *= scale[i];
+    BOOST_CHECK(is_precise ? factor.solve(x) : factor.precondition(x));
+    BOOST_CHECK(is_precise ? factor_of_scaled.solve(y) : factor_of_scaled.precondition(y));
+    for(std::size_t i = 0; i < a.size(); ++i)
+      BOOST_CHECK_EQUAL(y[i] * scale[i], x[i]);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(no_factor_of_what_is_not_positive_definite)
+{
+  const auto has_factor = [](const Dense_matrix& a)
+  {
+    CEi::Mixed_precision_factor<float, double> factor;
+    factor.analyze(sparse(a));
+    std::vector<double> x(a.size(), 1.);
+    const bool result = factor.factorize(sparse(a));
+    BOOST_CHECK_EQUAL(factor.precondition(x), result);
+    BOOST_CHECK_EQUAL(factor.solve(x), result);
+    return result;
+  };
+  BOOST_CHECK(has_factor(Dense_matrix()));
+  BOOST_CHECK(has_factor({{1e-150}}));
+  for(const double x : {0., -1., nan, infinity, -infinity})
+    BOOST_CHECK(!has_factor({{x}}));
+  BOOST_CHECK(!has_factor({{1, 1}, {1, 1}}));
+  BOOST_CHECK(!has_factor({{1, 2}, {2, 1}}));
+  BOOST_CHECK(!has_factor({{1, nan}, {nan, 1}}));
+  BOOST_CHECK(!has_factor({{1, infinity}, {infinity, 1}}));
+  BOOST_CHECK(has_factor({{1, 1 - 1e-12}, {1 - 1e-12, 1}})); // in double
+  for(std::size_t n = 2; n < 60; n += 7)
+    for(std::size_t i = 0; i < n; i += 5)
+    {
+      Dense_matrix a = random_matrix(n, 3, unsigned(n));
+      BOOST_CHECK(has_factor(a));
+      a[i][i] = -a[i][i];
+      BOOST_CHECK(!has_factor(a));
+      a[i][i] = nan;
+      BOOST_CHECK(!has_factor(a));
+    }
+}
+
+// Dense, by the definition: the structure of column j is that of the matrix and those of the columns for which j is the first row below the diagonal.
+BOOST_AUTO_TEST_CASE(structure_of_the_factor)
+{
+  for(unsigned seed = 0; seed < 40; ++seed)
+  {
+    const std::size_t n = 1 + seed * 3 % 41;
+    const CEi::Lower_half a = sparse(random_matrix(n, 1 + seed % 4, seed));
+    const CEi::Symbolic_factor symbolic(a, seed % 2 == 0 ? CEi::Elimination_order(a) : random_order(n, seed));
+    const std::vector<int> position = CEi::inverse_permutation(symbolic.unknowns);
+    std::vector<std::set<int> > column(n);
+    for(std::size_t j = 0; j < n; ++j)
+      for(int k = a.first[j]; k < a.first[j + 1]; ++k)
+        if(a.row[k] != int(j))
+          column[(std::min)(position[j], position[a.row[k]])].insert((std::max)(position[j], position[a.row[k]]));
+    std::vector<int> parent(n, -1), count(n);
+    for(std::size_t j = 0; j < n; ++j)
+    {
+      count[j] = 1 + int(column[j].size());
+      if(column[j].empty())
+        continue;
+      parent[j] = *column[j].begin();
+      column[parent[j]].insert(std::next(column[j].begin()), column[j].end());
+    }
+    namespace tree = CEi::elimination_tree;
+    BOOST_CHECK(tree::parents(tree::ordered_pattern(a, position, false)) == parent);
+    BOOST_CHECK(tree::column_counts(tree::ordered_pattern(a, position, true), parent) == count);
+    std::size_t columns = 0;
+    for(const CEi::Symbolic_factor::Supernode& node : symbolic.supernodes)
+    {
+      BOOST_CHECK_EQUAL(node.first_column, int(columns));
+      std::set<int> rows(symbolic.rows.begin() + node.first_row, symbolic.rows.begin() + node.first_row + node.number_of_rows);
+      for(; int(columns) < node.end_column(); ++columns)
+        for(const int row : column[columns])
+          BOOST_CHECK(row < node.end_column() || rows.count(row) == 1);
+    }
+    BOOST_CHECK_EQUAL(columns, n);
+  }
+}
+
+// The factor in single precision of one Laplacian is all that conjugate gradients need to get twelve digits in a few steps.
+BOOST_AUTO_TEST_CASE(single_precision_preconditions)
+{
+  const Triangulation t = testing::triangulation(testing::random_height_field(60, .5, 3));
+  CEi::Fixed_energy<double> energy(t);
+  energy.evaluate(std::vector<double>(t.number_of_vertices(), 0.));
+  std::vector<char> free;
+  std::vector<double> b = testing::random_numbers(t.number_of_vertices(), 1, 3), x, y;
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+  {
+    free.push_back(t.is_border_vertex(v) ? 0 : 1);
+    b[v] *= free[v];
+  }
+  CEi::Laplacian_solver linear(CEi::make_factorization<CE::Multifrontal_solver_traits>());
+  linear.set_edges(t);
+  linear.set_free(free);
+  BOOST_REQUIRE(linear.factorize(energy.weights()));
+  bool converged = false;
+  BOOST_CHECK_LE(linear.conjugate_gradients(energy.weights(), b, 1e-12, 10, x, converged), 4);
+  BOOST_CHECK(converged);
+  BOOST_REQUIRE(linear.solve(b, y));
+  double largest = 0;
+  for(const double entry : y)
+    largest = (std::max)(largest, std::abs(entry));
+  BOOST_CHECK_LE(largest_difference(x, y), 1e-10 * largest);
+}
+
+// ---- linear solvers of others
+
 BOOST_AUTO_TEST_CASE(solvers_of_the_user)
 {
   typedef CGAL::Eigen_sparse_matrix<double>::EigenType Matrix;
@@ -508,6 +769,8 @@ BOOST_AUTO_TEST_CASE(solvers_of_the_user)
     BOOST_CHECK_LE(largest_difference(solved(t, conditions, params::gradient_tolerance(solver_tolerance).sparse_linear_solver(traits))
                                       .log_scale_factors, u), solved_u);
   };
+  check(CE::Multifrontal_solver_traits());
+  check(CE::Simplicial_solver_traits());
   check(CGAL::Eigen_solver_traits<Eigen::SparseLU<Matrix> >());
   check(CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Matrix> >());
   check(CGAL::Eigen_solver_traits<Eigen::ConjugateGradient<CGAL::Eigen_sparse_symmetric_matrix<double>::EigenType> >());

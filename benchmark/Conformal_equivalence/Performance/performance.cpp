@@ -7,7 +7,7 @@
 //
 // MESH is a file, `terrain:N` (a generated height field of about N vertices) or
 // `loop:K:NOISE:FILE` (K times subdivided after Loop, then moved by NOISE edge lengths).
-// METHOD is `ours`, `ours-simplicial`, `lscm`, `arap`, `dcm`, `baseline`, or `check`
+// METHOD is `ours`, `ours-simplicial`, `ours-cholmod`, `lscm`, `arap`, `dcm`, `baseline`, or `check`
 // (is MESH a disk?). One method per process, so that the peak of memory is its own. Prints a
 // line `key value` for each figure.
 //

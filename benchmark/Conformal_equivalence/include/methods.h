@@ -133,13 +133,17 @@ inline bool is_disk(const Mesh& mesh)
   return CE::surface_topology(t, CE::connected_components(t)).is_disk();
 }
 
-// `ours` (the default solver), `ours-simplicial`, `lscm`, `arap`, `dcm`.
+// `ours` (the default solver), `ours-simplicial`, `ours-cholmod` (where it was found), `lscm`, `arap`, `dcm`.
 inline Result run_method(const std::string& method, Mesh& mesh, UV_map uv)
 {
   if(method == "ours")
     return flatten_conformally<CE::Default_solver_traits>(mesh, uv);
   if(method == "ours-simplicial")
     return flatten_conformally<CE::Simplicial_solver_traits>(mesh, uv);
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD
+  if(method == "ours-cholmod")
+    return flatten_conformally<CE::Cholmod_solver_traits>(mesh, uv);
+#endif
   if(method == "lscm")
     return parameterize<SMP::LSCM_parameterizer_3<Mesh> >(mesh, uv);
   if(method == "arap")

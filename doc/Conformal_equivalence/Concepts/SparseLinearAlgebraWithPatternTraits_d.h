@@ -16,6 +16,7 @@ function of the package too; they analyze the matrix in each call of `factor()`.
 \cgalRefines{SparseLinearAlgebraWithFactorTraits_d}
 
 \cgalHasModelsBegin
+\cgalHasModels{CGAL::Conformal_equivalence::Multifrontal_solver_traits}
 \cgalHasModels{CGAL::Conformal_equivalence::Eigen_pattern_solver_traits<EigenSolver>}
 \cgalHasModelsEnd
 */

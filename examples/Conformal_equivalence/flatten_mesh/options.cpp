@@ -88,7 +88,7 @@ po::options_description visible_options()
     ("max-iterations", po::value<long long>()->default_value(100), "bound on the number of Newton steps")
     ("precision", po::value<std::string>()->default_value("double"), "double | BITS: computes with numbers of so many bits (up to 4096), "
        "as exactly as they allow, and writes all of their digits")
-    ("solver", po::value<std::string>(), "the linear solver: cholmod or simplicial, as far as compiled in")
+    ("solver", po::value<std::string>(), "the linear solver: multifrontal, simplicial (Eigen) or cholmod (if compiled in)")
     ("default-input", po::value<std::string>(), "FILE: the INPUT if none is given; for scripts")
     ("default-output", po::value<std::string>(), "FOLDER: where NAME.obj, NAME.svg and NAME.json are written, NAME being that of INPUT without its "
        "extension, if none of -o, --svg, --html and --report is given; for scripts")
@@ -466,9 +466,9 @@ void check_standard_streams(const Options& options)
 std::vector<std::string> solver_names()
 {
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD
-  return { "cholmod", "simplicial" };
+  return { "multifrontal", "simplicial", "cholmod" };
 #else
-  return { "simplicial" };
+  return { "multifrontal", "simplicial" };
 #endif
 }
 

@@ -3,8 +3,7 @@
 
 /// \file Eigen_pattern_solver_traits.h
 /// The direct solvers of Eigen with the analysis of a matrix's pattern split from
-/// the factorization of its numbers, and the solver that this package uses unless
-/// told otherwise.
+/// the factorization of its numbers.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_EIGEN_PATTERN_SOLVER_TRAITS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_EIGEN_PATTERN_SOLVER_TRAITS_H
@@ -137,19 +136,11 @@ private:
 /// Eigen's own sparse Cholesky factorization. Needs no further library.
 typedef Eigen_pattern_solver_traits<Eigen::SimplicialLDLT<Eigen_sparse_matrix<double>::EigenType> > Simplicial_solver_traits;
 
+#if defined(CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD) || defined(DOXYGEN_RUNNING)
 /// \ingroup PkgConformalEquivalenceSolver
-/// The solver used where none is named: CHOLMOD's supernodal Cholesky factorization where the
-/// macro `CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD` is defined (by the CMake target
-/// `Conformal_equivalence::CHOLMOD_support`), `Simplicial_solver_traits` otherwise.
-///
-/// The solver traits are a template argument of everything reached from them, so units compiled
-/// with and without the macro may be linked together.
-#if defined(DOXYGEN_RUNNING)
-typedef unspecified_type Default_solver_traits;
-#elif defined(CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD)
-typedef Eigen_pattern_solver_traits<Eigen::CholmodSupernodalLLT<Eigen_sparse_matrix<double>::EigenType> > Default_solver_traits;
-#else
-typedef Simplicial_solver_traits Default_solver_traits;
+/// CHOLMOD's supernodal Cholesky factorization. It is there where the macro `CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD` is defined
+/// (by the CMake target `Conformal_equivalence::CHOLMOD_support`).
+typedef Eigen_pattern_solver_traits<Eigen::CholmodSupernodalLLT<Eigen_sparse_matrix<double>::EigenType> > Cholmod_solver_traits;
 #endif
 
 } // namespace Conformal_equivalence

@@ -14,7 +14,7 @@
 
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
-#include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+#include <CGAL/Conformal_equivalence/Multifrontal_solver_traits.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>

@@ -5,6 +5,12 @@
 #define FLATTEN_MESH_SOLVER_TRAITS_H
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+#include <CGAL/Conformal_equivalence/Multifrontal_solver_traits.h>
+
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 namespace flattening {
 
@@ -12,40 +18,72 @@ namespace flattening {
 // type. A copy is a solver of the same kind that has nothing to solve yet.
 class Solver_traits
 {
-  typedef CGAL::Conformal_equivalence::Default_solver_traits    Default;
-  typedef CGAL::Conformal_equivalence::Simplicial_solver_traits Simplicial;
+  typedef CGAL::Conformal_equivalence::Multifrontal_solver_traits Multifrontal;
+  typedef CGAL::Conformal_equivalence::Simplicial_solver_traits   Simplicial;
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD
+  typedef CGAL::Conformal_equivalence::Cholmod_solver_traits      Cholmod;
+  typedef std::variant<Multifrontal, Simplicial, Cholmod>         Solver;
+#else
+  typedef std::variant<Multifrontal, Simplicial>                  Solver;
+#endif
 
 public:
-  typedef Default::Matrix Matrix;
-  typedef Default::Vector Vector;
-  typedef Default::NT     NT;
+  typedef Multifrontal::Matrix Matrix;
+  typedef Multifrontal::Vector Vector;
+  typedef Multifrontal::NT     NT;
 
-  explicit Solver_traits(bool is_simplicial) : is_simplicial_(is_simplicial) {}
-  Solver_traits(const Solver_traits& other) : is_simplicial_(other.is_simplicial_) {}
+  // of a name that is known, or the default
+  explicit Solver_traits(const std::string& name)
+  {
+    if(name == "simplicial")
+      solver_.emplace<Simplicial>();
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD
+    if(name == "cholmod")
+      solver_.emplace<Cholmod>();
+#endif
+  }
+
+  Solver_traits(const Solver_traits& other)
+    : solver_(std::visit([](const auto& solver) { return Solver(std::decay_t<decltype(solver)>()); }, other.solver_))
+  {}
+
   Solver_traits(Solver_traits&&) = default;
   Solver_traits& operator=(const Solver_traits&) = delete;
   Solver_traits& operator=(Solver_traits&&) = default;
 
   bool analyze_pattern(const Matrix& A)
   {
-    return is_simplicial_ ? simplicial_.analyze_pattern(A) : default_.analyze_pattern(A);
+    return std::visit([&](auto& solver) { return solver.analyze_pattern(A); }, solver_);
   }
-  bool refactor(const Matrix& A, NT& D) { return is_simplicial_ ? simplicial_.refactor(A, D) : default_.refactor(A, D); }
-  bool factor(const Matrix& A, NT& D)   { return is_simplicial_ ? simplicial_.factor(A, D) : default_.factor(A, D); }
+
+  bool refactor(const Matrix& A, NT& D)
+  {
+    return std::visit([&](auto& solver) { return solver.refactor(A, D); }, solver_);
+  }
+
+  bool factor(const Matrix& A, NT& D)
+  {
+    return std::visit([&](auto& solver) { return solver.factor(A, D); }, solver_);
+  }
 
   bool linear_solver(const Vector& B, Vector& X)
   {
-    return is_simplicial_ ? simplicial_.linear_solver(B, X) : default_.linear_solver(B, X);
+    return std::visit([&](auto& solver) { return solver.linear_solver(B, X); }, solver_);
   }
+
   bool linear_solver(const Matrix& A, const Vector& B, Vector& X, NT& D)
   {
-    return is_simplicial_ ? simplicial_.linear_solver(A, B, X, D) : default_.linear_solver(A, B, X, D);
+    return std::visit([&](auto& solver) { return solver.linear_solver(A, B, X, D); }, solver_);
+  }
+
+  bool precondition(const Vector& B, Vector& X)
+  {
+    Multifrontal* const multifrontal = std::get_if<Multifrontal>(&solver_);
+    return multifrontal != nullptr ? multifrontal->precondition(B, X) : linear_solver(B, X);
   }
 
 private:
-  bool is_simplicial_;
-  Default default_;
-  Simplicial simplicial_;
+  Solver solver_;
 };
 
 } // namespace flattening

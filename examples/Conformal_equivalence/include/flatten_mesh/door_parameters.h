@@ -28,7 +28,7 @@ inline auto common_parameters(const Options& options, const Results& results, Pr
                           .number_of_iterations(options.maximum_number_of_iterations)
                           .retriangulation(options.retriangulation)
                           .visitor(std::ref(visitor))
-                          .sparse_linear_solver(Solver_traits(options.solver == "simplicial"));
+                          .sparse_linear_solver(Solver_traits(options.solver));
 }
 
 // Of those to the plane.

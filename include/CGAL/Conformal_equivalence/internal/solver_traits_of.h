@@ -6,7 +6,7 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_TRAITS_OF_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_TRAITS_OF_H
 
-#include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+#include <CGAL/Conformal_equivalence/Multifrontal_solver_traits.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 namespace CGAL {

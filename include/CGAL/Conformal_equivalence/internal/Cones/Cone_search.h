@@ -358,7 +358,7 @@ private:
       Vertex_vector force(t_.number_of_vertices(), 0.), g(t_.number_of_vertices(), 0.);
       for(Index v : inner_)
         force[v] = v == ground_ ? 0 : 1 / double(inner_.size());
-      linear_.precondition(force, g);
+      linear_.solve(force, g);
       ++number_of_solves_;
       uniform_response_ = std::make_shared<const Vertex_vector>(std::move(g));
     }
@@ -377,7 +377,7 @@ private:
     if(c != ground_)
     {
       force[c] = 1;
-      linear_.precondition(force, g);
+      linear_.solve(force, g);
       ++number_of_solves_;
     }
     return response_.emplace(c, std::make_shared<const Vertex_vector>(std::move(g))).first->second;
@@ -474,7 +474,7 @@ private:
     double total = 0;
     for(Index v : inner_)
       total += r[v];
-    if(!std::isfinite(total) || !linear_.precondition(r, d))
+    if(!std::isfinite(total) || !linear_.solve(r, d))
       return false;
     ++number_of_solves_;
     if(!p.angles.empty())

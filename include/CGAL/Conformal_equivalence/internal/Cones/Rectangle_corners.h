@@ -215,7 +215,7 @@ private:
       if(linear.graph().is_free(v))
         straight[v] = energy.angle_sums()[v] - (t_.is_border_vertex(v) ? CGAL_PI : 2 * CGAL_PI);
     Vertex_vector u;
-    linear.precondition(straight, u);
+    linear.solve(straight, u);
     return model(u, columns(linear, 1));
   }
 
@@ -268,7 +268,7 @@ private:
       if(linear.graph().is_free(border_[a]))
       {
         right[border_[a]] = halves * CGAL_PI / 2;
-        linear.precondition(right, x);
+        linear.solve(right, x);
       }
       x.resize(t_.number_of_vertices());
       result.push_back(std::move(x));

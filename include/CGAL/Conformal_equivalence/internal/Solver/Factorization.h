@@ -7,6 +7,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_FACTORIZATION_H
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
+#include <CGAL/Conformal_equivalence/Multifrontal_solver_traits.h>
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <Eigen/SparseCore>
@@ -36,6 +37,9 @@ public:
 
   // replaces b by A^-1 b, with the matrix last factorized
   virtual bool solve(std::vector<double>& b) = 0;
+
+  // replaces b by an approximation of A^-1 b that is good enough for a preconditioner; takes no longer
+  virtual bool precondition(std::vector<double>& b) = 0;
 };
 
 template <typename Traits, typename = void>
@@ -44,6 +48,13 @@ struct Has_pattern_analysis : std::false_type {};
 template <typename Traits>
 struct Has_pattern_analysis<Traits, std::void_t<decltype(std::declval<Traits&>().analyze_pattern(
     std::declval<const typename Traits::Matrix&>()))> > : std::true_type {};
+
+template <typename Traits, typename = void>
+struct Has_preconditioner : std::false_type {};
+
+template <typename Traits>
+struct Has_preconditioner<Traits, std::void_t<decltype(std::declval<Traits&>().precondition(
+    std::declval<const typename Traits::Vector&>(), std::declval<typename Traits::Vector&>()))> > : std::true_type {};
 
 // The factor that solver traits make. Traits without the split of analysis
 // and factorization (any model of CGAL's `SparseLinearAlgebraWithFactorTraits_d`)
@@ -87,17 +98,31 @@ public:
 
   bool solve(std::vector<double>& b) override
   {
+    return replace(b, [this](const Vector& right, Vector& solution) { return traits_.linear_solver(right, solution); });
+  }
+
+  bool precondition(std::vector<double>& b) override
+  {
+    if constexpr(Has_preconditioner<SolverTraits>::value)
+      return replace(b, [this](const Vector& right, Vector& solution) { return traits_.precondition(right, solution); });
+    else
+      return solve(b);
+  }
+
+private:
+  template <typename Function>
+  static bool replace(std::vector<double>& b, const Function& solve)
+  {
     Vector right(int(b.size())), solution(int(b.size()));
     for(std::size_t i = 0; i < b.size(); ++i)
       right[int(i)] = b[i];
-    if(!traits_.linear_solver(right, solution))
+    if(!solve(right, solution))
       return false;
     for(std::size_t i = 0; i < b.size(); ++i)
       b[i] = solution[int(i)];
     return true;
   }
 
-private:
   SolverTraits traits_;
   std::unique_ptr<Matrix> matrix_; // such traits may refer to it
   bool is_analyzed_ = false;
@@ -119,6 +144,7 @@ Factorization_maker factorization_maker(SolverTraits traits = SolverTraits())
 }
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template std::unique_ptr<Factorization> make_factorization(const Multifrontal_solver_traits&);
 extern template std::unique_ptr<Factorization> make_factorization(const Simplicial_solver_traits&);
 #endif
 

@@ -177,15 +177,15 @@ public:
   }
 
   // x = A^-1 b with the matrix last factorized
+  bool solve(const Vertex_vector& b, Vertex_vector& x)
+  {
+    return apply_factor(b, x, [this](std::vector<double>& free) { return factor_->solve(free); });
+  }
+
+  // The same approximately, by a factor that need not be one in double: always the same symmetric positive definite matrix, though.
   bool precondition(const Vertex_vector& b, Vertex_vector& x)
   {
-    x.assign(b.size(), 0.);
-    if(graph_.number_of_free == 0)
-      return true;
-    const bool is_solved = solve_by_factor(b, x);
-    if(!graph_.held.empty())
-      graph_.clear_fixed(x);
-    return is_solved;
+    return apply_factor(b, x, [this](std::vector<double>& free) { return factor_->precondition(free); });
   }
 
   // Conjugate gradients for A(w) x = b from x = 0, preconditioned by the kept
@@ -253,18 +253,21 @@ private:
     return !(double(n) + std::log(sizes.back() / goal) / gain <= double(most)) || !(gain > 0);
   }
 
-  // x = A^-1 b on the free vertices
-  bool solve_by_factor(const Vertex_vector& b, Vertex_vector& x)
+  // The free vertices that are not held become what `replace` makes of the free ones.
+  template <typename Function>
+  bool apply_factor(const Vertex_vector& b, Vertex_vector& x, const Function& replace) const
   {
+    x.assign(b.size(), 0.);
+    if(graph_.number_of_free == 0)
+      return true;
     std::vector<double> free(graph_.number_of_free);
     for(std::size_t v = 0; v < b.size(); ++v)
       if(graph_.is_free(std::uint32_t(v)))
         free[graph_.free_index[v]] = b[v];
-    if(!factor_->solve(free))
+    if(!replace(free))
       return false;
-    x.assign(b.size(), 0.);
     for(std::size_t v = 0; v < b.size(); ++v)
-      if(graph_.is_free(std::uint32_t(v)))
+      if(graph_.is_free(std::uint32_t(v)) && !graph_.is_held(std::uint32_t(v)))
         x[v] = free[graph_.free_index[v]];
     return true;
   }
