@@ -747,7 +747,7 @@ BOOST_AUTO_TEST_CASE(single_precision_preconditions)
   linear.set_free(free);
   BOOST_REQUIRE(linear.factorize(energy.weights()));
   bool converged = false;
-  BOOST_CHECK_LE(linear.conjugate_gradients(energy.weights(), b, 1e-12, 10, x, converged), 4);
+  BOOST_CHECK_LE(linear.conjugate_gradients(energy.weights(), b, 1e-12, 10, false, x, converged), 4);
   BOOST_CHECK(converged);
   BOOST_REQUIRE(linear.solve(b, y));
   double largest = 0;
