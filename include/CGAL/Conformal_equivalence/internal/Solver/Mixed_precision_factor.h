@@ -40,11 +40,11 @@ public:
   bool solve(std::vector<double>& b);
 
 private:
-  bool make_double_factor();
+  bool make_double_factor(); // instead of the one in single precision, if there is any
 
   Lower_half a_;
   std::shared_ptr<const Symbolic_factor> symbolic_;
-  std::unique_ptr<Multifrontal_factor<Single> > single_; // at most one of both
+  std::unique_ptr<Multifrontal_factor<Single> > single_; // at most one of both is there
   std::unique_ptr<Multifrontal_factor<Double> > double_;
   bool is_solving_ = false;
 };
@@ -65,25 +65,30 @@ bool Mixed_precision_factor<Single, Double>::factorize(Lower_half a)
   a_ = std::move(a);
   if(!symbolic_)
     return false;
-  if(is_solving_)
-    return make_double_factor();
-  double_.reset();
-  if(!single_)
-    single_ = std::make_unique<Multifrontal_factor<Single> >(symbolic_);
-  const double least_pivot = 100 * double(std::numeric_limits<Single>::epsilon());
-  return (single_->factorize(a_) && single_->least_pivot() > least_pivot) || make_double_factor();
+  if(!is_solving_)
+  {
+    double_.reset();
+    if(!single_)
+      single_ = std::make_unique<Multifrontal_factor<Single> >(symbolic_);
+    const double least_pivot = 100 * double(std::numeric_limits<Single>::epsilon());
+    if(single_->factorize(a_) && single_->least_pivot() > least_pivot)
+      return true;
+  }
+  single_.reset();
+  return make_double_factor();
 }
 
 template <typename Single, typename Double>
 bool Mixed_precision_factor<Single, Double>::make_double_factor()
 {
-  single_.reset();
   if(!double_)
     double_ = std::make_unique<Multifrontal_factor<Double> >(symbolic_);
-  if(double_->factorize(a_))
-    return true;
-  double_.reset();
-  return false;
+  const bool is_made = double_->factorize(a_);
+  if(is_made)
+    single_.reset();
+  else
+    double_.reset();
+  return is_made;
 }
 
 template <typename Single, typename Double>

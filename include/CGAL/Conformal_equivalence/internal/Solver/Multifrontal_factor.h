@@ -74,14 +74,14 @@ bool Multifrontal_factor<Number>::scale(const Lower_half& a)
           return false;
         int exponent;
         std::frexp(a.value[k], &exponent);
-        scale_[j] = std::ldexp(1., -(exponent / 2));
+        scale_[j] = std::ldexp(1., -int(std::floor(exponent / 2.)));
       }
   entries_.resize(a.row.size());
   for(int j = 0; j < a.size(); ++j)
     for(int k = a.first[j]; k < a.first[j + 1]; ++k)
     {
-      const double entry = a.value[k] * scale_[j] * scale_[a.row[k]], most = 4;
-      if(!(std::abs(entry) <= most)) // no entry of a positive definite matrix is larger than those of the diagonal
+      const double entry = a.value[k] * scale_[j] * scale_[a.row[k]], most = 2;
+      if(!(std::abs(entry) <= most)) // in a positive definite matrix the largest entry is on the diagonal
         return false;
       entries_[k] = Number(entry);
     }
