@@ -22,7 +22,7 @@
 
 #include <CGAL/number_utils.h>
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
