@@ -894,7 +894,7 @@ BOOST_AUTO_TEST_CASE(the_polyhedron_is_convex)
     const Mesh mesh = surface_mesh<Mesh>(needles(seed));
     const auto np = params::retriangulation(seed % 2 == 0 ? Retriangulation::ALWAYS : Retriangulation::WHEN_NEEDED);
     CEi::Sphere_mapping<Mesh, double> mapping(mesh);
-    mapping.run(np, true);
+    mapping.run(np, std::true_type());
     BOOST_REQUIRE(bool(mapping.report));
     const auto& t = mapping.polyhedron.triangulation;
     std::set<std::set<Index> > found, expected;

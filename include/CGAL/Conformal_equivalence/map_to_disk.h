@@ -116,7 +116,7 @@ Flattening_report<TriangleMesh> map_to_disk(const TriangleMesh& tm,
       parameters::get_parameter(np, internal_np::conformal_common_refinement).get() = std::move(mapping.refinement);
   }
   internal::write_report(mapping.report, np);
-  return mapping.report;
+  return std::move(mapping.report);
 }
 
 /// \ingroup PkgConformalEquivalenceDoors
@@ -160,7 +160,7 @@ Flattening_report<TriangleMesh> map_to_disk_refined(const TriangleMesh& tm,
     if(bool(mapping.report))
       parameters::get_parameter(np, internal_np::conformal_common_refinement).get() = std::move(mapping.refinement);
   internal::write_report(mapping.report, np);
-  return mapping.report;
+  return std::move(mapping.report);
 }
 
 } // namespace Conformal_equivalence

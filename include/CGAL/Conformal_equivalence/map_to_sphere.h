@@ -23,6 +23,7 @@
 
 #include <CGAL/assertions.h>
 
+#include <type_traits>
 #include <utility>
 
 namespace CGAL {
@@ -109,7 +110,7 @@ Flattening_report<TriangleMesh> map_to_sphere(const TriangleMesh& tm,
   static_assert(internal::Check_pack<internal::Parameters_of_map_to_sphere, TriangleMesh, NamedParameters>::value);
   constexpr bool is_refined = !parameters::is_default_parameter<NamedParameters, internal_np::conformal_spherical_refinement_t>::value;
   internal::Sphere_mapping<TriangleMesh, NT> mapping(tm);
-  mapping.run(np, is_refined);
+  mapping.run(np, std::bool_constant<is_refined>());
   if(bool(mapping.report))
   {
     internal::write_sphere(mapping, sphere_map, np);
@@ -117,7 +118,7 @@ Flattening_report<TriangleMesh> map_to_sphere(const TriangleMesh& tm,
       parameters::get_parameter(np, internal_np::conformal_spherical_refinement).get() = std::move(mapping.refinement);
   }
   internal::write_report(mapping.report, np);
-  return mapping.report;
+  return std::move(mapping.report);
 }
 
 /// \ingroup PkgConformalEquivalenceDoors
@@ -171,7 +172,7 @@ Flattening_report<TriangleMesh> map_to_sphere_refined(const TriangleMesh& tm,
   static_assert(internal::Check_pack<internal::Parameters_of_refined_sphere, RefinedMesh, NamedParametersRefined>::value);
   CGAL_precondition(vertices(refined).begin() == vertices(refined).end());
   internal::Sphere_mapping<TriangleMesh, double> mapping(tm);
-  mapping.run(np, true);
+  mapping.run(np, std::true_type());
   if(bool(mapping.report) && !internal::write_refined_sphere(mapping, refined, sphere_map, np, np_refined))
     mapping.report.status = Status::NOT_REPRESENTABLE;
   if(bool(mapping.report))
@@ -180,7 +181,7 @@ Flattening_report<TriangleMesh> map_to_sphere_refined(const TriangleMesh& tm,
     if(bool(mapping.report))
       parameters::get_parameter(np, internal_np::conformal_spherical_refinement).get() = std::move(mapping.refinement);
   internal::write_report(mapping.report, np);
-  return mapping.report;
+  return std::move(mapping.report);
 }
 
 } // namespace Conformal_equivalence

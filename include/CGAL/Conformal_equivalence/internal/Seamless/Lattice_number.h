@@ -14,8 +14,7 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// a + b theta with integers of any size: a ring with division with remainder, as both kinds are Euclidean.
-template <int Trace>
+// a + b theta with integers of any size.
 struct Lattice_number
 {
   Integer a, b;
@@ -24,39 +23,51 @@ struct Lattice_number
   Lattice_number(Integer x, Integer y = 0) : a(std::move(x)), b(std::move(y)) {}
   Lattice_number(int x, int y = 0) : a(x), b(y) {}
 
-  // theta to the power k >= 0
-  static Lattice_number unit(int k)
-  {
-    Lattice_number result(1);
-    for(; k > 0; --k)
-      result = result * Lattice_number(0, 1);
-    return result;
-  }
-
   bool is_zero() const { return a == 0 && b == 0; }
-  Integer norm() const { return a * a + Trace * (a * b) + b * b; }
-  Lattice_number conjugate() const { return {a + Trace * b, -b}; }
 
   friend Lattice_number operator+(const Lattice_number& x, const Lattice_number& y) { return {x.a + y.a, x.b + y.b}; }
   friend Lattice_number operator-(const Lattice_number& x, const Lattice_number& y) { return {x.a - y.a, x.b - y.b}; }
-  friend Lattice_number operator*(const Lattice_number& x, const Lattice_number& y)
+  friend bool operator==(const Lattice_number& x, const Lattice_number& y) { return x.a == y.a && x.b == y.b; }
+};
+
+// The ring of these numbers, with division with remainder, as both kinds are Euclidean. (No template on the kind: all would be compiled twice.)
+class Lattice_ring
+{
+public:
+  // theta^2 = trace theta - 1: 0 for squares, 1 for triangles
+  explicit Lattice_ring(int trace) : trace_(trace) {}
+
+  // theta to the power k >= 0
+  Lattice_number unit(int k) const
+  {
+    Lattice_number result(1);
+    for(; k > 0; --k)
+      result = product(result, Lattice_number(0, 1));
+    return result;
+  }
+
+  Integer norm(const Lattice_number& x) const { return x.a * x.a + trace_ * (x.a * x.b) + x.b * x.b; }
+  Lattice_number conjugate(const Lattice_number& x) const { return {x.a + trace_ * x.b, -x.b}; }
+
+  Lattice_number product(const Lattice_number& x, const Lattice_number& y) const
   {
     const Integer bd = x.b * y.b;
-    return {x.a * y.a - bd, x.a * y.b + x.b * y.a + Trace * bd};
+    return {x.a * y.a - bd, x.a * y.b + x.b * y.a + trace_ * bd};
   }
-  friend bool operator==(const Lattice_number& x, const Lattice_number& y) { return x.a == y.a && x.b == y.b; }
 
   // The quotient, rounded so that the norm of the remainder is at most 3/4 of that of the divisor.
-  friend Lattice_number operator/(const Lattice_number& x, const Lattice_number& y)
+  Lattice_number quotient(const Lattice_number& x, const Lattice_number& y) const
   {
-    const Lattice_number numerator = x * y.conjugate();
-    const Integer d = y.norm();
+    const Lattice_number numerator = product(x, conjugate(y));
+    const Integer d = norm(y);
     return {rounded_quotient(numerator.a, d), rounded_quotient(numerator.b, d)};
   }
 
 private:
   // \pre d > 0
   static Integer rounded_quotient(const Integer& x, const Integer& d) { return floor_of_quotient(2 * x + d, 2 * d); }
+
+  const int trace_;
 };
 
 } // namespace internal

@@ -31,7 +31,7 @@
 #include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>

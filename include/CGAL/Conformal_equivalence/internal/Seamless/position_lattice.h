@@ -37,27 +37,25 @@ namespace Conformal_equivalence {
 namespace internal {
 
 // A matrix over the ring, by columns, without its zeros.
-template <int Trace>
 struct Sparse_columns
 {
-  typedef Lattice_number<Trace> Number;
-  typedef std::map<std::size_t, Number> Column; // by row
+  typedef std::map<std::size_t, Lattice_number> Column; // by row
 
   std::vector<Column> columns;
 
   // column i += factor * column j
-  void add(std::size_t i, const Number& factor, std::size_t j)
+  void add(std::size_t i, const Lattice_number& factor, std::size_t j, const Lattice_ring& ring)
   {
     for(const auto& entry : columns[j])
     {
-      Number& x = columns[i][entry.first];
-      x = x + factor * entry.second;
+      Lattice_number& x = columns[i][entry.first];
+      x = x + ring.product(factor, entry.second);
       if(x.is_zero())
         columns[i].erase(entry.first);
     }
   }
 
-  const Number* find(std::size_t row, std::size_t column) const
+  const Lattice_number* find(std::size_t row, std::size_t column) const
   {
     const auto found = columns[column].find(row);
     return found == columns[column].end() ? nullptr : &found->second;
@@ -65,17 +63,15 @@ struct Sparse_columns
 };
 
 // A basis of the vectors x over the ring with `equations` x = 0: the columns of the result.
-template <int Trace>
-Sparse_columns<Trace> integral_null_space(Sparse_columns<Trace> equations, std::size_t number_of_equations)
+inline Sparse_columns integral_null_space(Sparse_columns equations, std::size_t number_of_equations, const Lattice_ring& ring)
 {
-  typedef Lattice_number<Trace> Number;
   const std::size_t n = equations.columns.size();
-  Sparse_columns<Trace> unimodular;
+  Sparse_columns unimodular;
   unimodular.columns.resize(n);
   std::vector<std::size_t> free(n);
   for(std::size_t i = 0; i < n; ++i)
   {
-    unimodular.columns[i][i] = Number(1);
+    unimodular.columns[i][i] = Lattice_number(1);
     free[i] = i;
   }
   for(std::size_t row = 0; row < number_of_equations; ++row)
@@ -89,7 +85,7 @@ Sparse_columns<Trace> integral_null_space(Sparse_columns<Trace> equations, std::
       // the smallest one divides the others, with remainders; of the smallest ones the one of the shortest column
       const std::size_t pivot = *std::min_element(nonzero.begin(), nonzero.end(), [&](std::size_t c, std::size_t d)
       {
-        const auto x = equations.find(row, c)->norm(), y = equations.find(row, d)->norm();
+        const Integer x = ring.norm(*equations.find(row, c)), y = ring.norm(*equations.find(row, d));
         return x != y ? x < y : unimodular.columns[c].size() < unimodular.columns[d].size();
       });
       std::vector<std::size_t> left(1, pivot);
@@ -97,9 +93,9 @@ Sparse_columns<Trace> integral_null_space(Sparse_columns<Trace> equations, std::
       {
         if(c == pivot)
           continue;
-        const Number q = Number() - *equations.find(row, c) / *equations.find(row, pivot);
-        equations.add(c, q, pivot);
-        unimodular.add(c, q, pivot);
+        const Lattice_number q = Lattice_number() - ring.quotient(*equations.find(row, c), *equations.find(row, pivot));
+        equations.add(c, q, pivot, ring);
+        unimodular.add(c, q, pivot, ring);
         if(equations.find(row, c) != nullptr)
           left.push_back(c);
       }
@@ -111,7 +107,7 @@ Sparse_columns<Trace> integral_null_space(Sparse_columns<Trace> equations, std::
       }
     }
   }
-  Sparse_columns<Trace> result;
+  Sparse_columns result;
   for(std::size_t c : free)
     result.columns.push_back(std::move(unimodular.columns[c]));
   return result;
@@ -131,31 +127,29 @@ struct Position_lattice
 
 // The equations of the relations, and of the origin: the position of the first cone; where there is none, the translation of the first path that
 // turns.
-template <int Trace>
-Sparse_columns<Trace> position_equations(const Meta_polygon& polygon, std::size_t number_of_cones, const Texture_lattice& lattice,
-                                         std::size_t& number_of_equations)
+inline Sparse_columns position_equations(const Meta_polygon& polygon, std::size_t number_of_cones, const Texture_lattice& lattice,
+                                         const Lattice_ring& ring, std::size_t& number_of_equations)
 {
-  typedef Lattice_number<Trace> Number;
   typedef Meta_polygon::Index Index;
-  const auto rotation = [&](int quanta) { return Number::unit(lattice.reduced(quanta) * (lattice.order() / lattice.symmetry())); };
+  const auto rotation = [&](int quanta) { return ring.unit(lattice.reduced(quanta) * (lattice.order() / lattice.symmetry())); };
 
-  Sparse_columns<Trace> equations;
+  Sparse_columns equations;
   equations.columns.resize(number_of_cones + polygon.paths.size());
   std::size_t row = 0;
-  const auto add = [&](std::size_t column, const Number& x)
+  const auto add = [&](std::size_t column, const Lattice_number& x)
   {
-    Number& entry = equations.columns[column][row];
+    Lattice_number& entry = equations.columns[column][row];
     entry = entry + x;
     if(entry.is_zero())
       equations.columns[column].erase(row);
   };
   if(number_of_cones > 0)
-    add(0, Number(1)), ++row;
+    add(0, Lattice_number(1)), ++row;
   else
     for(Index p = 0; p < polygon.paths.size(); ++p)
       if(polygon.paths[p].quanta != 0)
       {
-        add(p, Number(1));
+        add(p, Lattice_number(1));
         ++row;
         break;
       }
@@ -170,28 +164,28 @@ Sparse_columns<Trace> position_equations(const Meta_polygon& polygon, std::size_
     {
       // forward: T is added, and turned by all that follows; back: -T is, before the rotation of the crossing itself
       turned -= polygon.quanta(c);
-      const Number after = rotation(turned);
+      const Lattice_number after = rotation(turned);
       if(c.is_forward)
         add(number_of_cones + c.path, after);
       else
-        add(number_of_cones + c.path, Number() - after * rotation(polygon.quanta(c)));
+        add(number_of_cones + c.path, Lattice_number() - ring.product(after, rotation(polygon.quanta(c))));
     }
     if(relation.cone != Meta_polygon::null_index)
-      add(relation.cone, rotation(whole) - Number(1));
+      add(relation.cone, rotation(whole) - Lattice_number(1));
     ++row;
   }
   number_of_equations = row;
   return equations;
 }
 
-template <int Trace>
-Position_lattice position_lattice(const Meta_polygon& polygon, std::size_t number_of_cones, const Texture_lattice& lattice)
+inline Position_lattice position_lattice(const Meta_polygon& polygon, std::size_t number_of_cones, const Texture_lattice& lattice)
 {
   Position_lattice result;
   result.number_of_cones = number_of_cones;
   std::size_t number_of_equations = 0;
-  Sparse_columns<Trace> equations = position_equations<Trace>(polygon, number_of_cones, lattice, number_of_equations);
-  const Sparse_columns<Trace> solutions = integral_null_space(std::move(equations), number_of_equations);
+  const Lattice_ring ring(lattice.trace());
+  Sparse_columns equations = position_equations(polygon, number_of_cones, lattice, ring, number_of_equations);
+  const Sparse_columns solutions = integral_null_space(std::move(equations), number_of_equations, ring);
   const double most = 1099511627776.; // 2^40
   const auto narrow = [&](const Integer& x)
   {
@@ -207,11 +201,6 @@ Position_lattice position_lattice(const Meta_polygon& polygon, std::size_t numbe
     result.basis.push_back(std::move(vector));
   }
   return result;
-}
-
-inline Position_lattice position_lattice(const Meta_polygon& polygon, std::size_t number_of_cones, const Texture_lattice& lattice)
-{
-  return lattice.trace() == 0 ? position_lattice<0>(polygon, number_of_cones, lattice) : position_lattice<1>(polygon, number_of_cones, lattice);
 }
 
 } // namespace internal

@@ -32,6 +32,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -56,10 +57,11 @@ struct Sphere_mapping
 
   explicit Sphere_mapping(const TriangleMesh& tm) : mesh(tm) {}
 
-  template <typename NamedParameters>
-  void run(const NamedParameters& np, bool is_refined)
+  // `is_refined` is a type, so that who asks for no refinement need not compile it.
+  template <typename NamedParameters, bool is_refined>
+  void run(const NamedParameters& np, std::bool_constant<is_refined>)
   {
-    run_mapping(mesh, report, np, is_sphere, [&] { find(np); }, [&] { judge(is_refined); });
+    run_mapping(mesh, report, np, is_sphere, [&] { find(np); }, [&] { judge<is_refined>(); });
   }
 
 private:
@@ -119,7 +121,8 @@ private:
 
   // ---- Verdict
 
-  void judge(bool is_refined)
+  template <bool is_refined>
+  void judge()
   {
     const double rounding = 1e-6; // of the sum of solid angles, which is a multiple of that of the sphere
     const Intrinsic_triangulation<NT>& t = mesh.triangulation;
@@ -131,7 +134,7 @@ private:
     report.solid_angle = sum_of_solid_angles(polyhedron.triangulation, wide);
     if(!(std::abs(report.solid_angle - 4 * Number_constants<double>::pi()) < rounding))
       report.status = Status::NOT_INJECTIVE;
-    else if(is_refined)
+    else if constexpr(is_refined)
       refine(flipped);
     else
       tell_verdict(mesh, flipped, flipped.empty() ? flipped_faces(t, points) : std::vector<Index>(), report);

@@ -19,6 +19,7 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,7 +44,7 @@ public:
   template <typename TriangleMesh> using Mapping = Sphere_mapping<TriangleMesh, double>;
 
   template <typename TriangleMesh, typename NamedParameters>
-  static void run(Mapping<TriangleMesh>& mapping, const NamedParameters& np) { mapping.run(np, true); }
+  static void run(Mapping<TriangleMesh>& mapping, const NamedParameters& np) { mapping.run(np, std::true_type()); }
 
   template <typename TriangleMesh>
   static Straight_parts parts(Mapping<TriangleMesh>& mapping)
