@@ -550,6 +550,13 @@ inline Soup octahedron()
   return soup;
 }
 
+inline Soup moved(Soup soup, double x)
+{
+  for(auto& p : soup.points)
+    p[0] += x;
+  return soup;
+}
+
 inline Soup together(Soup soup, const Soup& other)
 {
   const std::uint32_t n = static_cast<std::uint32_t>(soup.points.size());
@@ -841,7 +848,7 @@ inline Input with_way(Input input, Way way, int vertex = 0)
 
 inline void add_inputs_of_several_components(std::vector<Input>& inputs)
 {
-  const Soup disks = together(grid(4, 0.3, 1), grid(3, 0.2, 1)), spheres = together(octahedron(), cubes({ {{0, 0, 0}} }));
+  const Soup disks = together(grid(4, 0.3, 1), moved(grid(3, 0.2, 1), 8)), spheres = together(octahedron(), moved(cubes({ {{0, 0, 0}} }), 8));
   add_in_all_formats(conditions(RECTANGLE, 1, 0), disks, inputs);
   for(std::uint8_t choice : {cone_choice(PLACED, 2), cone_choice(SEAMLESS, 2, BY_NUMBER), cone_choice(SEAMLESS, 3, HEXAGONS)})
     add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), choice), disks, inputs);

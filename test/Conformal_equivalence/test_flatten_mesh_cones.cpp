@@ -232,6 +232,9 @@ BOOST_AUTO_TEST_CASE(several_rectangles)
   refused(testing::icosphere(0), "the component of face 18, with 20 triangles: a rectangle needs a border, the mesh is closed");
   refused(single_triangles(1)[0], "the component of face 18, with 1 triangle: a rectangle needs at least 4 border vertices, there are 3");
   refused(testing::annulus(2, 8), "the component of face 18, with 32 triangles: no corners for a rectangle are found");
+  testing::Soup twice = testing::hill(3, .4); // two vertices in one place
+  twice.points[5] = twice.points[6];
+  refused(twice, "the component of face 18, with 18 triangles: no corners for a rectangle are found: the mesh has edges of length zero; edge 22-21");
   BOOST_TEST(! fs::exists(folder / "p.obj"));
 }
 

@@ -5,6 +5,7 @@
 
 #include "../include/flatten_mesh/conditions.h"
 #include "../include/flatten_mesh/Components.h"
+#include "../include/flatten_mesh/each_component.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/Polygon_soup.h"
 #include "../include/flatten_mesh/Scanner.h"
@@ -198,19 +199,20 @@ void require_one_border(const std::array<Vertex, 4>& corners, const Mesh& mesh, 
       fail("--boundary rectangle: vertex ", v.idx(), " is not on the same border as vertex ", corners[0].idx());
 }
 
-// Corners are chosen for disks only. Messages begin with `where`.
-std::array<Vertex, 4> chosen_corners(const std::string& where, const Mesh& mesh)
+// Corners are chosen for disks only. Messages begin with `where`; `as_given(report)` has the numbers of elements in the file.
+template <typename As_given>
+std::array<Vertex, 4> chosen_corners(const std::string& where, const Mesh& mesh, As_given as_given)
 {
   const Halfedge bhd = first_border_halfedge(mesh);
   if(bhd == Mesh::null_halfedge())
     fail(where, "a rectangle needs a border, the mesh is closed");
-  CE::Flattening_report<Mesh> report;
+  Report report;
   const std::array<Vertex, 4> corners =
     CE::select_rectangle_corners(mesh, bhd, CGAL::parameters::flattening_report(std::ref(report)));
   if(report.status == CE::Status::MISSING_CONDITION)
     fail(where, "a rectangle needs at least 4 border vertices, there are ", border_cycle(mesh, bhd).size());
   if(! report)
-    fail(where, "no corners for a rectangle are found: ", CE::message(report),
+    fail(where, "no corners for a rectangle are found: ", CE::message(as_given(report)),
          report.status == CE::Status::WRONG_TOPOLOGY ? " (give them: --boundary rectangle=i,j,k,l)" : "");
   return corners;
 }
@@ -229,16 +231,23 @@ void prescribe_a_rectangle(const std::array<Vertex, 4>& corners, const Mesh& mes
 void prescribe_rectangles(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions)
 {
   const std::string file = options.input + ": ";
+  const auto as_given = [&](Report report)
+  {
+    name_as_given(given, report);
+    return report;
+  };
   if(options.corners)
     return prescribe_a_rectangle(given_corners(*options.corners, mesh), mesh, conditions);
   const Components components(mesh);
   if(components.size() == 1)
-    return prescribe_a_rectangle(chosen_corners(file, mesh), mesh, conditions);
+    return prescribe_a_rectangle(chosen_corners(file, mesh, as_given), mesh, conditions);
   for(std::size_t c = 0; c < components.size(); ++c)
   {
     Component_mesh part;
     components.get_mesh(c, part);
-    std::array<Vertex, 4> corners = chosen_corners(file + name_of_component(given, part.faces.front(), part.faces.size()), part.mesh);
+    const std::string where = file + name_of_component(given, part.faces.front(), part.faces.size());
+    std::array<Vertex, 4> corners = chosen_corners(where, part.mesh, [&](const Report& report)
+      { return as_given(failure_in_whole(part, report)); });
     for(Vertex& v : corners)
       v = part.vertices[v.idx()];
     prescribe_a_rectangle(corners, mesh, conditions);

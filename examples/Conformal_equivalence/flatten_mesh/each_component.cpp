@@ -265,16 +265,6 @@ private:
   Report& whole_;
 };
 
-// The outcome of `found` is that of the whole: it has failed.
-Report failed(const Component_mesh& part, const Report& found)
-{
-  Report result;
-  Report_merger(part, found, result).take_over_outcome();
-  result.topology = found.topology;
-  result.statistics = found.statistics;
-  return result;
-}
-
 void describe_component(const CE::Surface_components::Component& given, const Report& found, Results& results)
 {
   results.components.emplace_back();
@@ -288,6 +278,15 @@ void describe_component(const CE::Surface_components::Component& given, const Re
 }
 
 } // namespace
+
+Report failure_in_whole(const Component_mesh& part, const Report& found)
+{
+  Report result;
+  Report_merger(part, found, result).take_over_outcome();
+  result.topology = found.topology;
+  result.statistics = found.statistics;
+  return result;
+}
 
 Report map_each_component(const Components& components, const Options& options, const Conditions& conditions, Results& results,
                           Progress& progress, const Door& door)
@@ -313,7 +312,7 @@ Report map_each_component(const Components& components, const Options& options, 
     const Report its_report = door(its_options, its_conditions, found, progress);
     describe_component(components[c], its_report, results);
     if(! its_report)
-      return failed(part, its_report);
+      return failure_in_whole(part, its_report);
 
     take_over_conditions(part, its_conditions, conditions);
     take_over_result(part, found.given, results.given);

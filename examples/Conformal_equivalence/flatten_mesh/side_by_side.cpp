@@ -108,7 +108,6 @@ private:
     transition_[mesh_.edge(transition.halfedge).idx()] = &transition;
     seam_vertices_[c].push_back(mesh_.source(transition.halfedge));
     seam_vertices_[c].push_back(mesh_.target(transition.halfedge));
-    include({{ double(t[0]), double(t[1]) }}, largest_[c]);
   }
 
   static void include(const Lattice_position& p, double& largest)
@@ -140,11 +139,10 @@ private:
           use(h);
   }
 
-  // Of places that are exact together with their images under the motions: those sum up to less than two or, with hexagons, four times the
-  // largest coordinate.
+  // Of places, no larger than this, that motions take to one another exactly: with hexagons, they are less than twice as large when they are turned.
   int number_of_bits(double largest) const
   {
-    return std::numeric_limits<double>::digits - (lattice_.trace() == 0 ? 1 : 2) - (std::ilogb(largest) + 1);
+    return std::numeric_limits<double>::digits - (lattice_.trace() == 0 ? 0 : 1) - (std::ilogb(largest) + 1);
   }
 
   static bool is_multiple(double x, int bits) { return std::nearbyint(std::scalbn(x, bits)) == std::scalbn(x, bits); }
@@ -206,7 +204,7 @@ private:
   UV_map uv_;
   std::vector<const Transition*> transition_;       // by edge; null if it is not on the seam
   std::vector<std::vector<Vertex> > seam_vertices_; // by component
-  std::vector<double> largest_;                     // by component: coordinate of a place on the seam or of a motion across it, at least 1
+  std::vector<double> largest_;                     // by component: coordinate of a place on the seam, at least 1
 };
 
 // Where coordinates are those of the plane, and the lattice is not: no seam is exact there.
@@ -242,25 +240,46 @@ void round_to_places(const std::vector<std::array<double, 2> >& centres, std::ve
     }
 }
 
-// By vertex of the mesh given, or of one made of it; 0 for isolated vertices.
-std::vector<std::array<double, 2> > centres_of_vertices(const Components& components, const std::vector<Mapped_component>& mapped,
-                                                        const Result& result)
+// By vertex of the mesh given, or of one made of it; `none` for isolated vertices.
+std::vector<std::uint32_t> components_of_vertices(const Components& components, const Result& result)
 {
-  std::vector<std::array<double, 2> > centres(result.mesh.number_of_vertices(), {{0, 0}});
+  std::vector<std::uint32_t> component(result.mesh.number_of_vertices(), Components::none);
   for(Face f : result.mesh.faces())
   {
     const Face given = result.given_face.empty() ? f : Face(static_cast<Mesh::size_type>(result.given_face[f.idx()]));
     for(Vertex v : vertices_of_face(result.mesh, f))
-      centres[v.idx()] = mapped[components.of_face(given)].centre;
+      component[v.idx()] = components.of_face(given);
   }
-  return centres;
+  return component;
 }
 
-void place_images(Target target, const Components& components, const std::vector<Mapped_component>& mapped, Result& result)
+// The weights e^{-u} of a component have the maximum 1. That of all components is to be 1: the factors by component.
+std::vector<double> common_weight_factors(const Components& components, const Result& given)
+{
+  std::vector<double> least(components.size(), std::numeric_limits<double>::infinity());
+  for(Vertex v : given.mesh.vertices())
+    if(! given.mesh.is_isolated(v))
+      least[components.of_vertex(v)] = (std::min)(least[components.of_vertex(v)], given.u[v]);
+  const double least_of_all = *std::min_element(least.begin(), least.end());
+  for(double& x : least)
+    x = std::exp(least_of_all - x);
+  return least;
+}
+
+// `factors`: of weights, by component.
+void place_images(Target target, const Components& components, const std::vector<Mapped_component>& mapped, const std::vector<double>& factors,
+                  Result& result)
 {
   if(result.mesh.number_of_faces() == 0)
     return;
-  result.centres = centres_of_vertices(components, mapped, result);
+  const std::vector<std::uint32_t> component = components_of_vertices(components, result);
+  result.centres.assign(component.size(), {{0, 0}});
+  for(Vertex v : result.mesh.vertices())
+    if(component[v.idx()] != Components::none)
+    {
+      result.centres[v.idx()] = mapped[component[v.idx()]].centre;
+      result.weight[v] = (std::max)(result.weight[v] * factors[component[v.idx()]], (std::numeric_limits<double>::min)());
+    }
   round_to_places(result.centres, result.image);
   round_to_places(result.centres, result.wide_image);
   if(target != Target::DISK)
@@ -306,8 +325,9 @@ void place_images_side_by_side(Target target, Results& results)
   for(std::size_t c = 0; c < results.components.size(); ++c)
     results.components[c].centre = centre(c, results.components.size());
   const Components components(results.given.mesh);
-  place_images(target, components, results.components, results.given);
-  place_images(target, components, results.components, results.made);
+  const std::vector<double> factors = common_weight_factors(components, results.given);
+  place_images(target, components, results.components, factors, results.given);
+  place_images(target, components, results.components, factors, results.made);
 }
 
 } // namespace flattening

@@ -27,6 +27,9 @@ typedef std::function<Report(const Options&, const Conditions&, Results&, Progre
 Report map_each_component(const Components& components, const Options& options, const Conditions& conditions, Results& results,
                           Progress& progress, const Door& door);
 
+// The report about a component that has failed, with the elements of the whole.
+Report failure_in_whole(const Component_mesh& part, const Report& found);
+
 } // namespace flattening
 
 #endif // FLATTEN_MESH_EACH_COMPONENT_H
