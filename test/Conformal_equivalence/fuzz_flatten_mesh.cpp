@@ -374,13 +374,15 @@ inline std::string fault_of_triangles(const checking::Surface& s)
   return "";
 }
 
-// Empty if the points of the OBJ file are on the unit sphere; vertices without a face are in its centre.
+// Empty if the points of the OBJ file are on unit spheres, those of several components side by side at multiples of 2.25; vertices without a face
+// are in the centre of the first.
 inline std::string fault_of_sphere(const checking::Surface& s)
 {
+  const auto from_centre = [](double x) { return x - 2.25 * std::round(x / 2.25); };
   for(const auto& p : s.points)
   {
-    const double r = std::hypot(p[0], p[1], p[2]);
-    if(! (r == 0 || std::abs(r - 1) < 1e-14))
+    const double r = std::hypot(from_centre(p[0]), from_centre(p[1]), p[2]);
+    if(! (r == 0 || std::abs(r - 1) < 1e-13))
       return "a point is off the sphere";
   }
   return "";
@@ -548,6 +550,22 @@ inline Soup octahedron()
   return soup;
 }
 
+inline Soup moved(Soup soup, double x)
+{
+  for(auto& p : soup.points)
+    p[0] += x;
+  return soup;
+}
+
+inline Soup together(Soup soup, const Soup& other)
+{
+  const std::uint32_t n = static_cast<std::uint32_t>(soup.points.size());
+  soup.points.insert(soup.points.end(), other.points.begin(), other.points.end());
+  for(const auto& t : other.triangles)
+    soup.triangles.push_back({{ t[0] + n, t[1] + n, t[2] + n }});
+  return soup;
+}
+
 // The surface of unit cubes, of any genus; without the squares at the height `open`, with borders.
 inline Soup cubes(const std::set<Cube>& solid, int open = -1)
 {
@@ -593,13 +611,24 @@ inline std::set<Cube> rings(int n)
   return solid;
 }
 
+// Text with as many digits as it takes to read numbers back.
+struct Exact_text : std::ostringstream
+{
+  Exact_text() { precision(17); }
+};
+
+// A line for each point, which begins like this.
+inline void write_points(std::ostream& out, const Soup& soup, const char* beginning = "")
+{
+  for(const auto& p : soup.points)
+    out << beginning << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+}
+
 inline std::string as_off(const Soup& soup)
 {
-  std::ostringstream out;
-  out.precision(17);
+  Exact_text out;
   out << "OFF\n" << soup.points.size() << ' ' << soup.triangles.size() << " 0\n";
-  for(const auto& p : soup.points)
-    out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  write_points(out, soup);
   for(const auto& t : soup.triangles)
     out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
   return out.str();
@@ -607,11 +636,9 @@ inline std::string as_off(const Soup& soup)
 
 inline std::string as_obj(const Soup& soup)
 {
-  std::ostringstream out;
-  out.precision(17);
+  Exact_text out;
   out << "# a mesh\n";
-  for(const auto& p : soup.points)
-    out << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  write_points(out, soup, "v ");
   for(const auto& t : soup.triangles)
     out << "f " << t[0] + 1 << "//1 " << t[1] + 1 << "/2/1 " << long(t[2]) - long(soup.points.size()) << '\n';
   return out.str();
@@ -629,15 +656,13 @@ void append(std::string& bytes, T value)
 
 inline std::string as_ply(const Soup& soup, bool is_text)
 {
-  std::ostringstream out;
-  out.precision(17);
+  Exact_text out;
   out << "ply\nformat " << (is_text ? "ascii" : "binary_little_endian") << " 1.0\nelement vertex " << soup.points.size()
       << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << soup.triangles.size()
       << "\nproperty list uchar int vertex_indices\nproperty uchar label\nend_header\n";
   if(is_text)
   {
-    for(const auto& p : soup.points)
-      out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+    write_points(out, soup);
     for(const auto& t : soup.triangles)
       out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << " 7\n";
     return out.str();
@@ -658,8 +683,7 @@ inline std::string as_ply(const Soup& soup, bool is_text)
 
 inline std::string as_stl(const Soup& soup, bool is_text)
 {
-  std::ostringstream out;
-  out.precision(17);
+  Exact_text out;
   std::string bytes(80, ' ');
   append(bytes, static_cast<std::uint32_t>(soup.triangles.size()));
   out << "solid s\n";
@@ -714,11 +738,9 @@ inline std::vector<std::vector<std::uint32_t> > squares(const Soup& soup)
 inline std::string as_polygons(const Soup& soup)
 {
   const auto faces = squares(soup);
-  std::ostringstream out;
-  out.precision(17);
+  Exact_text out;
   out << "OFF\n" << soup.points.size() << ' ' << faces.size() << " 0\n";
-  for(const auto& p : soup.points)
-    out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  write_points(out, soup);
   for(const auto& face : faces)
   {
     out << face.size();
@@ -732,8 +754,7 @@ inline std::string as_polygons(const Soup& soup)
 // Groups, materials, smoothing, normals; a line that is skipped, lines that are continued, and vertices after the faces.
 inline std::string as_dressed_obj(const Soup& soup)
 {
-  std::ostringstream out;
-  out.precision(17);
+  Exact_text out;
   out << "\xEF\xBB\xBFmtllib m.mtl\no s\ng a b\nvn 0 0 1\n";
   std::size_t n = 0;
   for(const auto& face : squares(soup))
@@ -753,8 +774,7 @@ inline std::string as_dressed_obj(const Soup& soup)
 // Strips, before the vertices, with another element between.
 inline std::string as_strips(const Soup& soup)
 {
-  std::ostringstream out;
-  out.precision(17);
+  Exact_text out;
   out << "ply\rformat ascii 1.0\relement tristrips 1\rproperty list int int vertex_indices\relement edge 1\rproperty list uchar float a\r"
          "element vertex " << soup.points.size() << "\rproperty float x\rproperty double y\r"
          "property list uchar uchar b\rproperty double z\rend_header\r"
@@ -826,6 +846,18 @@ inline Input with_way(Input input, Way way, int vertex = 0)
   return input;
 }
 
+inline void add_inputs_of_several_components(std::vector<Input>& inputs)
+{
+  const Soup disks = together(grid(4, 0.3, 1), moved(grid(3, 0.2, 1), 8)), spheres = together(octahedron(), moved(cubes({ {{0, 0, 0}} }), 8));
+  add_in_all_formats(conditions(RECTANGLE, 1, 0), disks, inputs);
+  for(std::uint8_t choice : {cone_choice(PLACED, 2), cone_choice(SEAMLESS, 2, BY_NUMBER), cone_choice(SEAMLESS, 3, HEXAGONS)})
+    add_in_all_formats(with_cones(conditions(NOT_GIVEN, 1, 0), choice), disks, inputs);
+  for(Way w : {DISK, DISK_OF_POINTS, DISK_WITH_DIGITS})
+    add_in_all_formats(with_way(conditions(NOT_GIVEN, 1, 0, "", "", "", "0,1,4"), w), disks, inputs);
+  for(Way w : {SPHERE, SPHERE_WITH_DIGITS, REPAIR_TO_SPHERE})
+    add_in_all_formats(with_way(conditions(NOT_GIVEN, 2, 0), w), spheres, inputs);
+}
+
 // All of them have solutions.
 inline std::vector<Input> valid_inputs()
 {
@@ -861,6 +893,7 @@ inline std::vector<Input> valid_inputs()
     add_in_all_formats(with_way(conditions(NOT_GIVEN, 1, 0, "", "", "", "0,1,4"), w, w == DISK_AROUND_VERTEX ? 5 : 0), grid(3, 0.3, 1), inputs);
   for(Way w : {DIGITS, KEPT_BORDER, LOCAL_REPAIR, MOLLIFICATION, REPAIR})
     add_in_all_formats(with_way(conditions(NATURAL, 0, 0), w), grid(4, 0.3, 1), inputs);
+  add_inputs_of_several_components(inputs);
   return inputs;
 }
 
@@ -909,8 +942,8 @@ private:
   {
     Soup soup = renumbered(surfaces()[below(surfaces().size())]);
     const bool is_closed = 2 * edges(soup) == 3 * soup.triangles.size();
-    if(below(16) == 0)
-      append(soup, renumbered(surfaces()[below(surfaces().size())]));
+    for(std::size_t n = below(16); n > 12; --n) // another component, or several
+      soup = together(soup, below(2) == 0 ? soup : renumbered(surfaces()[below(surfaces().size())]));
     for(std::size_t n = below(4); n > 0; --n)
       deform(soup);
     if(below(16) == 0)
@@ -937,14 +970,6 @@ private:
     return all.size();
   }
 
-  static void append(Soup& soup, const Soup& other)
-  {
-    const std::uint32_t n = static_cast<std::uint32_t>(soup.points.size());
-    soup.points.insert(soup.points.end(), other.points.begin(), other.points.end());
-    for(const auto& t : other.triangles)
-      soup.triangles.push_back({{ t[0] + n, t[1] + n, t[2] + n }});
-  }
-
   // The angles of some cones: their curvature is that of the surface, as Gauss and Bonnet have it.
   std::string new_cones(const Soup& soup)
   {
@@ -955,8 +980,7 @@ private:
     double sum = 0;
     for(const auto& share : shares)
       sum += share.second;
-    std::ostringstream out;
-    out.precision(17);
+    Exact_text out;
     for(const auto& share : shares)
       out << share.first << ' ' << 360 - 360 * euler * share.second / sum << '\n';
     return out.str();

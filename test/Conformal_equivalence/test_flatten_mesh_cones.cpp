@@ -6,6 +6,7 @@
 #define BOOST_TEST_MODULE test_flatten_mesh_cones
 #include "include/boost_test.h"
 #include "include/check_flattening.h"
+#include "include/components.h"
 #include "include/program_runs.h"
 #include "include/test_meshes.h"
 
@@ -196,6 +197,47 @@ BOOST_AUTO_TEST_CASE(rectangle_on_one_of_two_borders)
   check_refused({sphere, "--boundary", "rectangle=0,1,2,3"}, 1, "vertex 0 is not on the border");
 }
 
+// Each component becomes one, with the corners that it would have alone.
+BOOST_AUTO_TEST_CASE(several_rectangles)
+{
+  const Folder folder;
+  const Mixture all({two_hills(5), testing::hill(6, .4), two_hills(3)});
+  const std::string input = write_off(folder, "all.off", all.soup);
+  const Flattened f(folder, input, {"--boundary", "rectangle"}, {}, false);
+  BOOST_TEST(f.verdict.pieces == 3u);
+  const std::vector<double> sums = angle_sums(f.layout);
+  for(std::size_t i = 0; i < all.parts.size(); ++i)
+  {
+    run_on_mixture(folder, "alone", all.parts[i], {"--boundary", "rectangle", "--quiet"});
+    const std::vector<double> alone = angle_sums(checking::read_surface(folder / "alone.obj"));
+    for(std::size_t v = 0; v < alone.size(); ++v)
+      BOOST_TEST(std::abs(sums[all.vertices[i][v]] - alone[v]) < 1e-9);
+  }
+  // corners that are given make one of them a rectangle
+  const auto corners = [&](std::size_t i)
+  {
+    std::string list;
+    for(std::size_t v : {0, 6, 48, 42})
+      list += (list.empty() ? "rectangle=" : ",") + std::to_string(all.vertices[i][v]);
+    return list;
+  };
+  const Flattened one(folder, input, {"--boundary", corners(1)}, {}, false);
+  BOOST_TEST(std::abs(angle_sums(one.layout)[all.vertices[1][48]] - CGAL_PI / 2) < 1e-9);
+
+  const auto refused = [&](const testing::Soup& soup, const std::string& reason)
+  {
+    const std::string bad = write_off(folder, "bad.off", testing::together({testing::hill(3, .4), soup}));
+    check_refused({bad, "-o", folder / "p.obj", "--boundary", "rectangle"}, 1, reason);
+  };
+  refused(testing::icosphere(0), "the component of face 18, with 20 triangles: a rectangle needs a border, the mesh is closed");
+  refused(single_triangles(1)[0], "the component of face 18, with 1 triangle: a rectangle needs at least 4 border vertices, there are 3");
+  refused(testing::annulus(2, 8), "the component of face 18, with 32 triangles: no corners for a rectangle are found");
+  testing::Soup twice = testing::hill(3, .4); // two vertices in one place
+  twice.points[5] = twice.points[6];
+  refused(twice, "the component of face 18, with 18 triangles: no corners for a rectangle are found: the mesh has edges of length zero; edge 22-21");
+  BOOST_TEST(! fs::exists(folder / "p.obj"));
+}
+
 BOOST_AUTO_TEST_CASE(two_components)
 {
   const Folder folder;
@@ -351,11 +393,69 @@ BOOST_AUTO_TEST_CASE(cones_place_themselves)
   check_refused({input, "-o", folder / "p.obj", "--cones", "auto=1000"}, 1, "not enough vertices for the cones");
   const std::string sphere = write_off(folder, "sphere.off", testing::icosphere(1));
   check_refused({sphere, "-o", folder / "p.obj", "--cones", "auto=2"}, 1, "a sphere needs three cones, at least");
-  const std::string two = write_off(folder, "two.off", testing::together({testing::hill(4, .5), testing::hill(4, .5)}));
-  check_refused({two, "-o", folder / "p.obj", "--cones", "auto=2"}, 1, "wrong topology: found 2 components");
+  const std::string two = write_off(folder, "two.off", testing::together({testing::hill(4, .5), testing::icosphere(1)}));
+  check_refused({two, "-o", folder / "p.obj", "--cones", "auto=2"}, 1,
+                "the component of face 32, with 80 triangles: a condition is missing");
+  check_refused({two, "-o", folder / "p.obj", "--cones", "auto=60"}, 1,
+                "the component of face 0, with 32 triangles: there are not enough vertices for the cones: 9");
+  check_refused({two, "-o", folder / "p.obj", "--cones", "auto=3", "--max-scale", "1e-6"}, 1,
+                "the component of face 0, with 32 triangles: the bound on the distortion was not met");
   fs::remove(sphere);
   fs::remove(two);
   BOOST_TEST(folder.files() == files, boost::test_tools::per_element());
+}
+
+// On each component as if it were alone; fewer where there are not as many vertices inside.
+BOOST_AUTO_TEST_CASE(cones_on_several_components)
+{
+  const Folder folder;
+  const Mixture all({two_hills(7), testing::icosphere(2), single_triangles(1)[0], testing::cone(6, .5), testing::torus(12, 8), two_hills(7)});
+  const std::string input = write_off(folder, "all.off", all.soup);
+  const double bound = .05;
+  for(const std::vector<std::string>& options : { std::vector<std::string>{"--cones", "auto=4"}, {"--cones", "auto", "--max-scale", number(bound)},
+                                                  {"--cones", "auto=4", "--quantize", "60"} })
+  {
+    const bool has_bound = options.size() == 4 && options[2] == "--max-scale", is_rounded = options.size() == 4 && ! has_bound;
+    const Flattened f = with_placed_cones(folder, input, options);
+    for(std::size_t i = 0; i < all.parts.size(); ++i)
+    {
+      BOOST_TEST_INFO_SCOPE("component " << i);
+      const std::size_t n = f.report["component_figures"][i]["cones"].get<std::size_t>();
+      if(i == 2)
+      {
+        BOOST_TEST(n == 0u);
+        continue;
+      }
+      std::vector<std::string> its_options = options;
+      if(i == 3 && ! has_bound)
+        its_options[1] = "auto=1"; // as many as it has vertices inside
+      const Run r = run(with({write_off(folder, "alone.off", all.parts[i]), "--report", folder / "alone.json"}, its_options));
+      BOOST_TEST_REQUIRE(r.status == 0, r.err);
+      const nlohmann::json alone = json(folder / "alone.json");
+      BOOST_TEST(alone["cones"].size() == n);
+      for(const nlohmann::json& cone : alone["cones"])
+        BOOST_TEST(std::any_of(f.report["cones"].begin(), f.report["cones"].end(), [&](const nlohmann::json& other)
+        {
+          return other["vertex"] == all.vertices[i][cone["vertex"].get<std::size_t>()]
+              && std::abs(other["angle_degrees"].get<double>() - cone["angle_degrees"].get<double>()) < 1e-8;
+        }));
+      if(has_bound)
+        BOOST_TEST(largest_u(f.report["component_figures"][i]) <= bound);
+      else if(! is_rounded)
+        BOOST_TEST(n == (i == 3 ? 1u : 4u));
+    }
+  }
+}
+
+// One component after another takes no longer than it would alone: the time for a thousand is that of a thousand.
+BOOST_AUTO_TEST_CASE(cones_on_many_components)
+{
+  const Folder folder;
+  std::vector<testing::Soup> parts = single_triangles(900);
+  parts.insert(parts.end(), 100, testing::hill(4, .5));
+  const Flattened f = with_placed_cones(folder, write_off(folder, "all.off", Mixture(parts).soup), {"--cones", "auto=1"});
+  BOOST_TEST(f.report["cones"].size() == 100u);
+  BOOST_TEST(f.report["component_figures"].size() == 1000u);
 }
 
 BOOST_AUTO_TEST_CASE(cones_are_rounded)

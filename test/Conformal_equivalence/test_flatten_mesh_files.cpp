@@ -536,6 +536,11 @@ BOOST_AUTO_TEST_CASE(notices)
   };
   BOOST_TEST(said("a.obj", square) == "");
   BOOST_TEST(said("a.obj", square + "l 1 2\nvp 0.5\nl 2 3\n-- a line --\n") == "skipped lines: '--' (1), 'l' (2), 'vp' (1)\n");
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(run({folder / "a.obj", "--report", folder / "r.json", "--quiet"}).status == 0);
+  BOOST_TEST(json(folder / "r.json")["notices"]
+             == nlohmann::json::array({ (folder / "a.obj") + ": skipped lines: '--' (1), 'l' (2), 'vp' (1)" }));
+#endif
   BOOST_TEST(said("a.obj", square.substr(0, square.size() - 8) + "f 1//1 3//1 4//2\n")
              == "skipped the normals of 1 face, where not every corner has one\n");
   BOOST_TEST(said("a.ply", "ply\nformat ascii 1.0\nelement edge 2\nproperty int a\nproperty int b\n"
@@ -600,6 +605,16 @@ std::string lines_with(const std::string& key, const std::string& obj)
     if(line.compare(0, key.size() + 1, key + ' ') == 0)
       result += line.substr(key.size() + 1) + '\n';
   return result;
+}
+
+// Its intrinsic Delaunay triangulation is another one.
+testing::Soup spiky_icosahedron()
+{
+  testing::Soup soup = testing::icosphere(1);
+  for(std::size_t i = 0; i < soup.points.size(); i += 2)
+    for(double& x : soup.points[i])
+      x *= 3;
+  return soup;
 }
 
 // A grid in several groups, materials and smoothing groups; every third face has no normals.
@@ -699,6 +714,51 @@ BOOST_AUTO_TEST_CASE(what_is_said_of_faces_is_kept_in_other_meshes)
   closed = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n" + closed;
   BOOST_TEST(run({folder.write("closed.obj", closed), "--target", "sphere", "-o", folder / "s.obj"}).status == 0);
   BOOST_TEST((said_of_faces(content(folder / "s.obj")) == said_of_faces(closed)));
+}
+
+// With a weight before it, too; of polygons, on the sphere, and of a surface that was repaired, but not of a refined mesh.
+BOOST_AUTO_TEST_CASE(colours_of_vertices_are_kept)
+{
+  const Folder folder;
+  const std::string faces = "f 1 2 3 4\nf 2 5 3\n";
+  const std::string square = "v 0 0 0 1 0 0.5\nv 1 0 0 1 0.25 0.125 0\nv 1 1 .1\nv 0 1 0 1\nv 2 0 0 0.1 0.2 0.3\n" + faces;
+  const std::string coloured = "0 0 0 1 0 0.5\n1 0 0 0.25 0.125 0\n1 1 0.1\n0 1 0\n2 0 0 0.1 0.2 0.3\n";
+  for(const std::vector<std::string>& options : { std::vector<std::string>{}, {"--repair"}, {"--projective", "--precision", "80"} })
+  {
+    const Run r = run(with({folder.write("a.obj", square), "-o", folder / "o.obj"}, options));
+    BOOST_TEST(r.status == 0);
+    BOOST_TEST(r.err == "");
+    BOOST_TEST(lines_with("v", content(folder / "o.obj")) == coloured);
+  }
+  BOOST_TEST(run({folder / "o.obj", "-o", folder / "p.obj"}).status == 0);
+  BOOST_TEST(lines_with("v", content(folder / "p.obj")) == coloured);
+
+  const testing::Soup sphere = spiky_icosahedron();
+  std::string obj;
+  for(const auto& p : sphere.points)
+    obj += "v " + point(p) + " 0.5 0.25 1\n";
+  for(const auto& t : sphere.triangles)
+    obj += "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' + std::to_string(t[2] + 1) + '\n';
+  const std::string input = folder.write("s.obj", obj);
+  BOOST_TEST(run({input, "-o", folder / "o.obj", "--target", "sphere"}).err == "");
+  std::istringstream lines(lines_with("v", content(folder / "o.obj")));
+  std::size_t number = 0;
+  for(std::string line; std::getline(lines, line); ++number)
+    BOOST_TEST(contains(line, " 0.5 0.25 1"));
+  BOOST_TEST(number == sphere.points.size());
+
+  const std::string lost = "the colours of its vertices are not written: they are not those of the mesh that is written";
+  std::vector<std::string> arguments = {input, "-o", folder / "o.obj", "--target", "sphere", "--retriangulate", "always", "--refine"};
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  arguments.insert(arguments.end(), {"--report", folder / "o.json"});
+#endif
+  const Run r = run(arguments);
+  BOOST_TEST(r.status == 0);
+  BOOST_TEST(r.err == "flatten_mesh: " + input + ": " + lost + "\n");
+  BOOST_TEST(! contains(content(folder / "o.obj"), "0.5 0.25 1"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(json(folder / "o.json")["notices"] == nlohmann::json::array({ input + ": " + lost }));
+#endif
 }
 
 // Around a vertex of many faces, too, time is linear: in 100 000 triangles quadratic time would be more than ten seconds.

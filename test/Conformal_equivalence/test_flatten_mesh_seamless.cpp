@@ -7,6 +7,7 @@
 #include "include/boost_test.h"
 #include "include/check_flattening.h"
 #include "include/check_seams.h"
+#include "include/components.h"
 #include "include/program_runs.h"
 #include "include/test_meshes.h"
 
@@ -22,6 +23,12 @@
 using namespace program;
 
 namespace {
+
+bool is_good(const checking::Seam_verdict& verdict)
+{
+  BOOST_TEST_MESSAGE(verdict);
+  return verdict.is_good();
+}
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
 // The motions of the report, by path, are those of the layout; the cones lie where the report says.
@@ -60,7 +67,7 @@ void check_report_of_seams(const checking::Seam_checker& checker, const checking
   BOOST_TEST(seamless["distortion"]["max"].get<double>() >= seamless["distortion"]["mean"].get<double>());
   BOOST_TEST(seamless["quasi_conformal_mean"]["before"].get<double>() >= 1);
   BOOST_TEST(seamless["closest"].is_boolean());
-  BOOST_TEST(seamless["scale"].get<double>() > 0);
+  BOOST_TEST((report["components"] == 1 ? seamless["scale"].get<double>() > 0 : seamless["scale"].is_null()));
   BOOST_TEST(report["flipped_triangles"] == 0);
 }
 #endif
@@ -157,6 +164,101 @@ BOOST_AUTO_TEST_CASE(seamless_disk_without_cones)
   BOOST_TEST(f.verdict.seam_edges == 0u);
   BOOST_TEST(judge(input, folder / "o.obj").is_good());
   BOOST_TEST(std::abs(area(f.layout) - 12) < 6);
+}
+
+namespace {
+
+// The layout of each component is the one that it has alone, moved by a point of the lattice. Returns how many places were rounded again. `options`
+// begin with those for cones, which single triangles do not get.
+std::size_t check_moves(const Folder& folder, const Mixture& all, const checking::Surface& layout, const std::vector<std::string>& options)
+{
+  std::size_t rounded = 0;
+  for(std::size_t i = 0; i < all.parts.size(); ++i)
+  {
+    std::vector<std::string> its_options = options;
+    if(all.parts[i].triangles.size() == 1)
+      its_options.erase(its_options.begin(), its_options.begin() + 2);
+    run_on_mixture(folder, "alone", all.parts[i], with(its_options, {"--seamless", "--quiet"}));
+    const checking::Surface alone = checking::read_surface(folder / "alone.obj"), part = all.part(layout, i);
+    const auto p = corner(part, 0, 0), q = corner(alone, 0, 0);
+    const std::array<double, 2> by = {{ std::round(p[0] - q[0]), std::round(p[1] - q[1]) }};
+    double largest = 0;
+    for(std::size_t f = 0; f < part.faces.size(); ++f)
+      for(std::size_t k = 0; k < 3; ++k)
+        for(std::size_t j = 0; j < 2; ++j)
+        {
+          const double difference = corner(part, f, k)[j] - (corner(alone, f, k)[j] + by[j]);
+          rounded += difference != 0;
+          largest = (std::max)(largest, std::abs(difference));
+        }
+    BOOST_TEST(largest < 1e-11);
+  }
+  return rounded;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(several_seamless_surfaces)
+{
+  const Folder folder;
+  const Mixture all({two_hills(7), bumpy_sphere(2), single_triangles(1)[0], two_hills(7), testing::icosphere(2)});
+  const std::string input = write_off(folder, "all.off", all.soup);
+  const std::vector<std::string> options = {"--cones", "auto=4", "--tiles", "60"};
+  const Seamless f(folder, input, options); // which are exact
+  BOOST_TEST(check_moves(folder, all, f.layout, options) == 0u);
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  double tiles = 0;
+  for(std::size_t i = 0; i < all.parts.size(); ++i)
+  {
+    const nlohmann::json& figures = f.report["component_figures"][i];
+    BOOST_TEST(figures["face"] == all.faces[i][0]);
+    BOOST_TEST((figures["cones"].get<std::size_t>() > 0) == (i != 2));
+    tiles += figures["seamless"]["tiles"].get<double>();
+    BOOST_TEST(figures["seamless"]["scale"].get<double>() > 0);
+  }
+  BOOST_TEST(std::abs(f.report["seamless"]["tiles"].get<double>() - tiles) < 1e-9);
+  BOOST_TEST(f.report["seamless"]["scale"].is_null());
+#endif
+
+  // in coordinates of the lattice hexagons are exact, too
+  const std::vector<std::string> hexagons = {"--cones", "auto=4", "--tiles", "60", "--quantize", "60", "--lattice-coordinates"};
+  std::vector<std::string> arguments = {input, "-o", folder / "h.obj", "--seamless", "--svg", folder / "h.svg"};
+  Run r = run(with(arguments, hexagons));
+  BOOST_TEST_REQUIRE(r.status == 0, r.err);
+  const checking::Surface given = checking::read_surface(input), layout = checking::read_surface(folder / "h.obj");
+  BOOST_TEST(is_good(checking::check_seams(given, layout, 6)));
+  BOOST_TEST(check_moves(folder, all, layout, hexagons) < layout.faces.size()); // only places on seams were rounded, if any
+  r = run({input, "-o", folder / "h.obj", "--seamless", "--cones", "auto=4", "--quantize", "60"});
+  BOOST_TEST_REQUIRE(r.status == 0, r.err);
+
+  // cones of a file
+  std::vector<std::size_t> vertices;
+  for(std::size_t i : {1, 4})
+    for(std::size_t v : {0, 2, 5, 9})
+      vertices.push_back(all.vertices[i][v]);
+  const std::string cones = folder.write("cones.txt", cone_lines(vertices, "180"));
+  BOOST_TEST(Seamless(folder, input, {"--cones", cones, "--quantize", "180", "--tiles", "100"}, 2).verdict.cones == 8u);
+}
+
+// Those far out have fewer digits left: places on seams are rounded again, and seams are exact all the same.
+BOOST_AUTO_TEST_CASE(many_seamless_surfaces)
+{
+  const Folder folder;
+  std::vector<testing::Soup> parts;
+  for(std::size_t i = 0; i < 90; ++i)
+    parts.push_back(i % 3 == 0 ? testing::scaled(testing::icosphere(1), 1, 1, 1 + .01 * double(i)) : two_hills(3));
+  const Mixture all(parts);
+  const std::string input = write_off(folder, "all.off", all.soup);
+  const checking::Surface given = checking::read_surface(input);
+  for(const std::string quantum : {"90", "60"})
+  {
+    const std::vector<std::string> options = {"--cones", "auto=3", "--tiles", "200", "--quantize", quantum, "--lattice-coordinates"};
+    const Run r = run(with({input, "-o", folder / "o.obj", "--seamless", "--quiet"}, options));
+    BOOST_TEST_REQUIRE(r.status == 0, r.err);
+    const checking::Surface layout = checking::read_surface(folder / "o.obj");
+    BOOST_TEST(is_good(checking::check_seams(given, layout, quantum == "90" ? 4 : 6)));
+    BOOST_TEST(check_moves(folder, all, layout, options) > 0u);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(seamless_spheres)
@@ -265,6 +367,10 @@ BOOST_AUTO_TEST_CASE(seamless_layouts_are_refused)
                     annulus = write_off(folder, "annulus.off", testing::annulus(4, 20, .4)),
                     sphere = write_off(folder, "sphere.off", testing::icosphere(1));
   check_refused({sphere, "-o", obj, "--seamless"}, 1, "--cones auto=N");
+  const std::string three = write_off(folder, "three.off", testing::together({two_hills(4), two_hills(4), testing::icosphere(1)}));
+  check_refused({three, "-o", obj, "--seamless"}, 1, "the component of face 192, with 80 triangles: "); // which has no cones
+  check_refused({three, "-o", obj, "--seamless", "--cones", "auto=2"}, 1, "the component of face 192, with 80 triangles: ");
+  std::filesystem::remove(three);
   check_refused({annulus, "-o", obj, "--seamless", "--cones", folder.write("c.txt", "50 270\n")}, 1,
                 "the two sides of the seam do not differ by a multiple");
   check_refused({torus, "-o", obj, "--seamless", "--cones", folder.write("c.txt", "0 270\n100 450\n")}, 1,

@@ -7,6 +7,7 @@
 #include "include/boost_test.h"
 #include "include/check_flattening.h"
 #include "include/check_image.h"
+#include "include/components.h"
 #include "include/program_runs.h"
 #include "include/test_meshes.h"
 
@@ -435,6 +436,211 @@ BOOST_AUTO_TEST_CASE(target_disk_with_flips)
   }
 }
 
+namespace {
+
+// In rows and columns.
+std::array<double, 2> centre(std::size_t component, std::size_t columns)
+{
+  return {{ 2.25 * double(component % columns), 2.25 * double(component / columns) }};
+}
+
+} // namespace
+
+// Each component is mapped as if it were alone, and then moved.
+BOOST_AUTO_TEST_CASE(several_spheres)
+{
+  const Folder folder;
+  const Mixture all({bumpy_sphere(2), spiky_sphere(3), bumpy_sphere(2), testing::icosahedron(), testing::scaled(bumpy_sphere(1), 1e-9)});
+  const Inscribed s(folder, write_off(folder, "all.off", all.soup), {"--target", "sphere", "--svg", folder / "i.svg"});
+  BOOST_TEST(all.has_faces_of(s.output));
+  BOOST_TEST(contains(s.out, "side by side            5 spheres\n"));
+  BOOST_TEST((s.output.points[0] == std::array<double, 3>{{ 0, 0, 0 }})); // isolated
+  for(std::size_t i = 0; i < all.parts.size(); ++i)
+  {
+    run_on_mixture(folder, "alone", all.parts[i], {"--target", "sphere", "--quiet"});
+    const checking::Surface alone = checking::read_surface(folder / "alone.obj"), given = checking::read_surface(folder / "alone.off");
+    checking::Surface part = all.part(s.output, i);
+    const std::array<double, 2> c = centre(i, 3);
+    bool is_same = true;
+    for(std::size_t v = 0; v < part.points.size(); ++v)
+      for(std::size_t k = 0; k < 3; ++k)
+      {
+        is_same = is_same && part.points[v][k] == alone.points[v][k] + (k < 2 ? c[k] : 0);
+        part.points[v][k] -= k < 2 ? c[k] : 0;
+      }
+    BOOST_TEST(is_same);
+    checking::Image_tolerances tolerances;
+    tolerances.edges_were_flipped = i == 1;
+    tolerances.sphere = 2e-15; // coordinates of up to 6 were rounded
+    BOOST_TEST(is_good(checking::check_sphere(given, part, tolerances)));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    const nlohmann::json& figures = s.report["component_figures"][i];
+    BOOST_TEST(figures["face"] == all.faces[i][0]);
+    BOOST_TEST(figures["triangles"] == all.faces[i].size());
+    BOOST_TEST((figures["centre"].get<std::array<double, 2> >() == c));
+    BOOST_TEST((figures["flips"].get<int>() > 0) == (i == 1));
+#endif
+  }
+  const std::string obj = content(folder / "i.obj");
+  for(std::size_t i = 0; i < all.parts.size(); ++i)
+    BOOST_TEST(contains(obj, "o component_" + std::to_string(i) + "\n"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  BOOST_TEST(std::abs(s.report["solid_angle"].get<double>() - 5 * 4 * CGAL_PI) < 1e-9);
+  BOOST_TEST(s.report["injective"] == "yes");
+  BOOST_TEST(s.report["barycentre"].get<double>() < 1e-12);
+  BOOST_TEST(s.report["cross_ratio_error"].get<double>() < 1e-8); // of those without flips
+#endif
+}
+
+// Where straight triangles will not do, that component is refined, and the others are not.
+BOOST_AUTO_TEST_CASE(several_refined_spheres)
+{
+  const Folder folder;
+  const Mixture all({spiky_sphere(6), bumpy_sphere(1), spiky_sphere(6)});
+  for(const std::string precision : {"double", "120"})
+  {
+    const Inscribed s(folder, write_off(folder, "all.off", all.soup), {"--target", "sphere", "--precision", precision, "--color-by", "qc"});
+    std::vector<checking::Surface> alone;
+    for(std::size_t i = 0; i < 2; ++i)
+    {
+      run_on_mixture(folder, "alone", all.parts[i], {"--target", "sphere", "--precision", precision, "--quiet"});
+      alone.push_back(checking::read_surface(folder / "alone.obj"));
+    }
+    BOOST_REQUIRE(alone[0].points.size() > all.parts[0].points.size());
+    BOOST_TEST(alone[1].points.size() == all.parts[1].points.size());
+    BOOST_TEST(s.output.points.size() == 1 + 2 * alone[0].points.size() + alone[1].points.size());
+    BOOST_TEST(s.output.faces.size() == 2 * alone[0].faces.size() + alone[1].faces.size());
+    const std::size_t first = all.soup.points.size(), number = alone[0].points.size() - all.parts[0].points.size();
+    bool is_same = true;
+    for(std::size_t i = 0; i < 2; ++i) // crossings of the first and the third component
+      for(std::size_t v = 0; v < number; ++v)
+      {
+        const auto &p = s.output.points[first + i * number + v], &q = alone[0].points[all.parts[0].points.size() + v];
+        const std::array<double, 2> c = centre(2 * i, 2);
+        is_same = is_same && (precision == "double" ? p == std::array<double, 3>{{ q[0] + c[0], q[1] + c[1], q[2] }}
+                                                    : std::abs(p[0] - c[0] - q[0]) + std::abs(p[1] - c[1] - q[1]) + std::abs(p[2] - q[2]) < 1e-15);
+      }
+    BOOST_TEST(is_same);
+    std::size_t lost = 0;
+    const auto component = [&](std::size_t v)
+    {
+      for(std::size_t i = 0; i < 3; ++i)
+        if(std::binary_search(all.vertices[i].begin(), all.vertices[i].end(), testing::Index(v)))
+          return i;
+      return v < first + number ? std::size_t(0) : std::size_t(2);
+    };
+    for(const auto& f : s.output.faces)
+    {
+      std::array<testing::Point, 3> p;
+      for(std::size_t k = 0; k < 3; ++k)
+      {
+        const std::array<double, 2> c = centre(component(f[k]), 2);
+        BOOST_TEST_REQUIRE(component(f[k]) == component(f[0]));
+        p[k] = {{ s.output.points[f[k]][0] - c[0], s.output.points[f[k]][1] - c[1], s.output.points[f[k]][2] }};
+      }
+      const double volume = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) + p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2])
+                          + p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+      lost += ! (volume > -1e-15);
+    }
+    BOOST_TEST(lost == 0u);
+  }
+}
+
+// Objects of the file are kept.
+BOOST_AUTO_TEST_CASE(spheres_that_are_objects)
+{
+  const Folder folder;
+  std::ostringstream obj;
+  const testing::Soup sphere = testing::icosahedron();
+  for(std::size_t i = 0; i < 2; ++i)
+  {
+    obj << (i == 0 ? "o left\n" : "o right\ng a\n");
+    for(const auto& p : sphere.points)
+      obj << "v " << point(p) << '\n';
+    for(const auto& t : sphere.triangles)
+      obj << "f " << 12 * i + t[0] + 1 << ' ' << 12 * i + t[1] + 1 << ' ' << 12 * i + t[2] + 1 << '\n';
+  }
+  const Run r = run({folder.write("a.obj", obj.str()), "-o", folder / "o.obj", "--target", "sphere"});
+  BOOST_TEST_REQUIRE(r.status == 0, r.err);
+  BOOST_TEST(contains(content(folder / "o.obj"), "o right\ng a\n"));
+  BOOST_TEST(! contains(content(folder / "o.obj"), "component"));
+}
+
+BOOST_AUTO_TEST_CASE(several_disks)
+{
+  const Folder folder;
+  const testing::Soup hill = testing::rings(6, [](double x, double y) { return .4 * std::sin(2 * x + 1) * std::cos(3 * y); });
+  std::vector<testing::Soup> parts = single_triangles(2);
+  parts.insert(parts.end(), {hill, testing::rings(4, [](double x, double y) { return .2 * std::sin(2 * x) * std::cos(y); }), hill}); // without flips
+  const Mixture all(parts);
+  const std::string input = write_off(folder, "all.off", all.soup),
+                    vertex = std::to_string(all.vertices[2][20]), borders = std::to_string(all.vertices[2][95]) + ',' +
+                    std::to_string(all.vertices[2][99]) + ',' + std::to_string(all.vertices[2][120]);
+  const std::vector<std::vector<std::string> > options = { {}, {"--disk-centre", vertex}, {"--disk-points", borders}, {"--moebius-weights", "areas"},
+                                                           {"--projective"}, {"--precision", "100"} };
+  const std::vector<std::vector<std::string> > alone_options = { {}, {"--disk-centre", "20"}, {"--disk-points", "95,99,120"},
+                                                                 {"--moebius-weights", "areas"}, {"--projective"}, {"--precision", "100"} };
+  for(std::size_t o = 0; o < options.size(); ++o)
+  {
+    const Inscribed d(folder, input, with({"--target", "disk", "--svg", folder / "i.svg", "--html", folder / "i.html"}, options[o]));
+    BOOST_TEST(contains(d.out, "side by side            5 disks\n"));
+    BOOST_TEST(judge(input, folder / "i.obj", false).is_good());
+    for(std::size_t i = 0; i < parts.size(); ++i)
+    {
+      const bool is_named = options[o].size() == 2 && (o == 1 || o == 2) && i != 2; // a vertex of another component
+      run_on_mixture(folder, "alone", parts[i], with({"--target", "disk", "--quiet"}, is_named ? std::vector<std::string>() : alone_options[o]));
+      const checking::Surface alone = checking::read_surface(folder / "alone.obj"), part = all.part(d.output, i);
+      const std::array<double, 2> c = centre(i, 3);
+      double largest = 0;
+      for(std::size_t f = 0; f < part.faces.size(); ++f)
+        for(std::size_t k = 0; k < 3; ++k)
+          for(std::size_t j = 0; j < 2; ++j)
+            largest = (std::max)(largest, std::abs(corner(part, f, k)[j] - (corner(alone, f, k)[j] + c[j])));
+      BOOST_TEST(largest <= (o < 4 ? 0 : 4e-15)); // with weights, and with more digits, after their rounding
+    }
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    BOOST_TEST(d.report["injective"] == "yes");
+    BOOST_TEST(d.report["components"] == 5);
+    BOOST_TEST(d.report["component_figures"].size() == 5u);
+    BOOST_TEST(d.report["unit_circle_error"].get<double>() < (o == 5 ? 1e-28 : 2e-15));
+#endif
+  }
+  check_refused({input, "--target", "disk", "--disk-points", "1,2," + std::to_string(all.vertices[2][95])}, 1, "is not on the component of vertex 1");
+  check_refused({input, "--target", "disk", "--disk-centre", "1"}, 1, "vertex 1 is on the border");
+  check_refused({input, "--target", "disk", "--vertex-at-infinity", "0"}, 1, "vertex 0 is isolated");
+}
+
+BOOST_AUTO_TEST_CASE(several_refined_disks)
+{
+  const Folder folder;
+  const Soup steep = steep_grid(9);
+  const Mixture all({{steep.points, steep.triangles}, testing::hill(5, .2), {steep.points, steep.triangles}});
+  const std::string input = write_off(folder, "all.off", all.soup);
+  for(const std::vector<std::string>& more : { std::vector<std::string>{"--refine"}, {"--projective"}, {"--refine", "--precision", "150"} })
+  {
+    const Inscribed d(folder, input, with({"--target", "disk"}, more));
+    std::size_t points = 1, faces = 0; // one is isolated
+    for(const testing::Soup& part : all.parts)
+    {
+      run_on_mixture(folder, "alone", part, with({"--target", "disk", "--quiet"}, more));
+      const checking::Surface alone = checking::read_surface(folder / "alone.obj");
+      points += alone.points.size();
+      faces += alone.faces.size();
+    }
+    BOOST_TEST(points > all.soup.points.size());
+    BOOST_TEST(d.output.points.size() == points);
+    BOOST_TEST(d.output.faces.size() == faces);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_thousand_disks)
+{
+  const Folder folder;
+  const std::string input = write_off(folder, "all.off", Mixture(single_triangles(1000)).soup);
+  const Inscribed d(folder, input, {"--target", "disk"});
+  BOOST_TEST(judge(input, folder / "i.obj", false).is_good());
+}
+
 // Towards the ends of a long strip scales fall like e^(-pi x): in double the points there are the same. What is said to help does.
 BOOST_AUTO_TEST_CASE(long_strips_need_digits)
 {
@@ -475,12 +681,11 @@ BOOST_AUTO_TEST_CASE(sphere_and_disk_are_refused)
   refused(sphere, "disk", "found 1 component, 0 borders, genus 0; --target disk takes surfaces");
   refused(annulus, "disk", "found 1 component, 2 borders, genus 0");
 
-  // in pieces: each is named by a face
-  const testing::Soup two = testing::together({testing::icosphere(1), testing::icosphere(2)});
-  const std::string spheres = write_off(folder, "spheres.off", two);
-  check_refused({spheres, "-o", obj, "--target", "sphere"}, 1, "of one component; the components have the faces 0, 80");
-  check_refused({spheres, "-o", obj, "--cones", "auto=4"}, 1, "--cones auto takes one component; the components have the faces 0, 80");
-  check_refused({spheres, "-o", obj, "--cones", "auto=4", "--seamless"}, 1, "--seamless takes one component; the components have the faces 0, 80");
+  // in pieces: the one that has no map is named by a face
+  const testing::Soup three = testing::together({testing::icosphere(1), testing::torus(8, 8), testing::icosphere(2)});
+  const std::string spheres = write_off(folder, "spheres.off", three), wrong = "the surface has the wrong topology: found 1 component, 0 borders, ";
+  refused(spheres, "sphere", "the component of face 80, with 128 triangles: " + wrong + "genus 1");
+  refused(spheres, "disk", "the component of face 0, with 80 triangles: " + wrong + "genus 0");
 
   for(const std::string target : {"sphere", "disk"})
     for(const std::string mode : {"never", "when-needed", "always"})

@@ -283,6 +283,12 @@ void name_as_given(const Given_surface& given, Report& report)
   }
 }
 
+std::string name_of_component(const Given_surface& given, Face first_face, std::size_t number_of_triangles)
+{
+  return text("the component of face ", given.face(first_face), ", with ", number_of_triangles,
+              number_of_triangles == 1 ? " triangle: " : " triangles: ");
+}
+
 bool is_diagonal(const Given_surface& given, const Mesh& mesh, Mesh::Edge_index e)
 {
   const Halfedge h = mesh.halfedge(e);

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace flattening {
 
@@ -66,6 +67,13 @@ void OBJ_attribute_writer::write_libraries(Text_buffer& out) const
     out << "mtllib " << names << '\n';
 }
 
+void OBJ_attribute_writer::write_after_point(Text_buffer& out, std::size_t vertex) const
+{
+  if(keeps_colors_ && vertex < attributes_.colors.size() && attributes_.colors[vertex])
+    for(double x : *attributes_.colors[vertex])
+      out << ' ' << x;
+}
+
 void OBJ_attribute_writer::write_normals(Text_buffer& out) const
 {
   if(keeps_normals_)
@@ -112,6 +120,28 @@ void OBJ_attribute_writer::write_after_corner(Text_buffer& out, std::size_t face
 bool all_faces_have_a_material(const OBJ_attributes& attributes)
 {
   return ! attributes.sections.empty() && attributes.first_faces.front() == 0 && attributes.sections.front()[OBJ_attributes::MATERIAL];
+}
+
+void name_components(const std::vector<std::size_t>& component, OBJ_attributes& attributes)
+{
+  const std::vector<OBJ_attributes::Section> given = attributes.sections;
+  const std::vector<std::size_t> first = attributes.first_faces;
+  if(std::any_of(given.begin(), given.end(), [](const auto& section) { return section[OBJ_attributes::OBJECT].has_value(); }))
+    return;
+  attributes.sections.clear();
+  attributes.first_faces.clear();
+  std::size_t next = 0; // section
+  for(std::size_t f = 0; f < component.size(); ++f)
+  {
+    const std::size_t before = next;
+    while(next < first.size() && first[next] <= f)
+      ++next;
+    if(f != 0 && next == before && component[f] == component[f - 1])
+      continue;
+    attributes.sections.push_back(next == 0 ? OBJ_attributes::Section() : given[next - 1]);
+    attributes.sections.back()[OBJ_attributes::OBJECT] = "component_" + std::to_string(component[f]);
+    attributes.first_faces.push_back(f);
+  }
 }
 
 OBJ_attributes seen_from(const std::string& output, const std::string& input, OBJ_attributes attributes)

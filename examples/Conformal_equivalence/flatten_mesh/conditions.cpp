@@ -4,6 +4,8 @@
 // The mesh, and what is prescribed on it.
 
 #include "../include/flatten_mesh/conditions.h"
+#include "../include/flatten_mesh/Components.h"
+#include "../include/flatten_mesh/each_component.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/Polygon_soup.h"
 #include "../include/flatten_mesh/Scanner.h"
@@ -197,33 +199,59 @@ void require_one_border(const std::array<Vertex, 4>& corners, const Mesh& mesh, 
       fail("--boundary rectangle: vertex ", v.idx(), " is not on the same border as vertex ", corners[0].idx());
 }
 
-// Corners are chosen for disks only.
-std::array<Vertex, 4> chosen_corners(const std::string& file, const Mesh& mesh)
+// Corners are chosen for disks only. Messages begin with `where`; `as_given(report)` has the numbers of elements in the file.
+template <typename As_given>
+std::array<Vertex, 4> chosen_corners(const std::string& where, const Mesh& mesh, As_given as_given)
 {
   const Halfedge bhd = first_border_halfedge(mesh);
   if(bhd == Mesh::null_halfedge())
-    fail(file, ": a rectangle needs a border, the mesh is closed");
-  CE::Flattening_report<Mesh> report;
+    fail(where, "a rectangle needs a border, the mesh is closed");
+  Report report;
   const std::array<Vertex, 4> corners =
     CE::select_rectangle_corners(mesh, bhd, CGAL::parameters::flattening_report(std::ref(report)));
   if(report.status == CE::Status::MISSING_CONDITION)
-    fail(file, ": a rectangle needs at least 4 border vertices, there are ", border_cycle(mesh, bhd).size());
+    fail(where, "a rectangle needs at least 4 border vertices, there are ", border_cycle(mesh, bhd).size());
   if(! report)
-    fail(file, ": no corners for a rectangle are found: ", CE::message(report),
+    fail(where, "no corners for a rectangle are found: ", CE::message(as_given(report)),
          report.status == CE::Status::WRONG_TOPOLOGY ? " (give them: --boundary rectangle=i,j,k,l)" : "");
   return corners;
 }
 
-// On the border of the corners; the others stay natural.
-void prescribe_a_rectangle(const Options& options, const Mesh& mesh, Conditions& conditions)
+// On the border of the corners; the others stay as they are.
+void prescribe_a_rectangle(const std::array<Vertex, 4>& corners, const Mesh& mesh, Conditions& conditions)
 {
-  const std::array<Vertex, 4> corners = options.corners ? given_corners(*options.corners, mesh)
-                                                        : chosen_corners(options.input, mesh);
   const std::vector<Halfedge> border = border_cycle(mesh, border_halfedge_to(mesh, corners[0]));
   require_one_border(corners, mesh, border);
   CE::prescribe_rectangle(mesh, corners, conditions.border_angle);
   for(Halfedge h : border)
     conditions.is_constrained[mesh.target(h)] = false;
+}
+
+// Where corners are given; or each component becomes one.
+void prescribe_rectangles(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions)
+{
+  const std::string file = options.input + ": ";
+  const auto as_given = [&](Report report)
+  {
+    name_as_given(given, report);
+    return report;
+  };
+  if(options.corners)
+    return prescribe_a_rectangle(given_corners(*options.corners, mesh), mesh, conditions);
+  const Components components(mesh);
+  if(components.size() == 1)
+    return prescribe_a_rectangle(chosen_corners(file, mesh, as_given), mesh, conditions);
+  for(std::size_t c = 0; c < components.size(); ++c)
+  {
+    Component_mesh part;
+    components.get_mesh(c, part);
+    const std::string where = file + name_of_component(given, part.faces.front(), part.faces.size());
+    std::array<Vertex, 4> corners = chosen_corners(where, part.mesh, [&](const Report& report)
+      { return as_given(failure_in_whole(part, report)); });
+    for(Vertex& v : corners)
+      v = part.vertices[v.idx()];
+    prescribe_a_rectangle(corners, mesh, conditions);
+  }
 }
 
 void set_cones(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions)
@@ -289,18 +317,22 @@ std::array<Vertex, 3> vertices_of_face(const Mesh& mesh, Face f)
   return {{ mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)) }};
 }
 
-Conditions::Conditions(const Given_surface& given, Mesh& mesh)
+Conditions::Conditions(Mesh& mesh)
   : border_angle(mesh.add_property_map<Vertex, double>("v:border_angle", CGAL_PI).first),
     cone_angle(mesh.add_property_map<Vertex, double>("v:cone_angle", 2 * CGAL_PI).first),
     u(mesh.add_property_map<Vertex, double>("v:prescribed_u", 0.).first),
     is_constrained(mesh.add_property_map<Vertex, bool>("v:is_constrained", false).first),
     is_diagonal(mesh.add_property_map<Mesh::Edge_index, bool>("e:is_diagonal", false).first)
 {
-  for(Mesh::Edge_index e : mesh.edges())
-    is_diagonal[e] = flattening::is_diagonal(given, mesh, e);
   for(Halfedge h : mesh.halfedges())
     if(mesh.is_border(h))
       is_constrained[mesh.target(h)] = true;
+}
+
+Conditions::Conditions(const Given_surface& given, Mesh& mesh) : Conditions(mesh)
+{
+  for(Mesh::Edge_index e : mesh.edges())
+    is_diagonal[e] = flattening::is_diagonal(given, mesh, e);
 }
 
 void set_conditions(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions)
@@ -308,7 +340,7 @@ void set_conditions(const Options& options, const Mesh& mesh, const Given_surfac
   if(! options.cone_file.empty())
     set_cones(options, mesh, given, conditions);
   if(options.is_rectangle)
-    prescribe_a_rectangle(options, mesh, conditions);
+    prescribe_rectangles(options, mesh, given, conditions);
   else
     read_border_conditions(options, mesh, given, conditions);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "../include/flatten_mesh/explain.h"
+#include "../include/flatten_mesh/Components.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/precision.h"
 
@@ -96,13 +97,19 @@ std::vector<Component_balance> balances(const Mesh& mesh, const Conditions& cond
   return result;
 }
 
-// An angle out of its range may be the reason why the angles do not sum up, or just one of those that do not: that they do not is said first.
-std::string wrong_sum_of_angles(const Mesh& mesh, const Conditions& conditions)
+// An angle out of its range may be the reason why the angles do not sum up, or just one of those that do not: that they do not is said first. If
+// `face` is one, only its component counts.
+std::string wrong_sum_of_angles(const Mesh& mesh, const Conditions& conditions, Face face)
 {
   const double rounding = 1e-9;
-  for(const Component_balance& balance : balances(mesh, conditions))
-    if(! balance.has_fixed_vertex && ! (std::abs(balance.left) <= rounding))
+  const std::vector<Component_balance> all = balances(mesh, conditions);
+  const std::size_t one = face == Mesh::null_face() ? all.size() : Components(mesh).of_face(face);
+  for(std::size_t c = 0; c < all.size(); ++c)
+  {
+    const Component_balance& balance = all[c];
+    if((one == all.size() || one == c) && ! balance.has_fixed_vertex && ! (std::abs(balance.left) <= rounding))
       return angles_left(balance.left);
+  }
   return "";
 }
 
@@ -170,26 +177,10 @@ std::string advice_to_converge(const Options& options, const Report& report)
   return flipping.empty() && others.empty() ? "" : " (" + flipping + (flipping.empty() || others.empty() ? "" : "; ") + others + ")";
 }
 
-// One face of each component, so that they can be told apart.
-std::string list_of_components(const Given_surface& given, const Mesh& mesh)
+std::string advice_on_topology(const Options& options)
 {
-  const CE::Surface_components pieces = CE::connected_components(CE::import_mesh(mesh).triangulation);
-  std::string list;
-  const std::size_t most = 10;
-  for(std::size_t i = 0; i < pieces.components.size() && i < most; ++i)
-    list += text(i == 0 ? " " : ", ", given.face(Face(pieces.components[i].first_face)));
-  return "; the components have the faces" + list + (pieces.components.size() > most ? ", ..." : "");
-}
-
-std::string advice_on_topology(const Options& options, const Given_surface& given, const Mesh& mesh, const Report& report)
-{
-  const bool is_in_pieces = report.topology.number_of_components > 1;
-  const std::string what =
-      options.target == Target::SPHERE ? "; --target sphere takes closed surfaces of genus 0, of one component"
-    : options.target == Target::DISK ? "; --target disk takes surfaces of genus 0 with one border, of one component"
-    : options.seamless && is_in_pieces ? "; --seamless takes one component"
-    : options.places_cones && is_in_pieces ? "; --cones auto takes one component" : "";
-  return what + (is_in_pieces && ! what.empty() ? list_of_components(given, mesh) : "");
+  return options.target == Target::SPHERE ? "; --target sphere takes closed surfaces of genus 0"
+       : options.target == Target::DISK ? "; --target disk takes surfaces of genus 0 with one border" : "";
 }
 
 // Lengths are scaled by e^u: where that ranges further than the digits of a number do, points that differ are rounded to the same one. With
@@ -218,7 +209,7 @@ std::string advice_on_injectivity(const Options& options, const CE::Statistics& 
   return options.precision_in_bits == bits_of_double && ! options.local_repair ? " (--precision BITS has more digits)" : "";
 }
 
-std::string advice(const Options& options, const Given_surface& given, const Mesh& mesh, const Report& report)
+std::string advice(const Options& options, const Report& report)
 {
   switch(report.status)
   {
@@ -230,7 +221,7 @@ std::string advice(const Options& options, const Given_surface& given, const Mes
     case CE::Status::SINGULAR_PROBLEM:
       return advice_to_converge(options, report);
     case CE::Status::WRONG_TOPOLOGY:
-      return advice_on_topology(options, given, mesh, report);
+      return advice_on_topology(options);
     case CE::Status::NO_ANGLE_LEFT:
       return report.topology.genus == 0 && report.topology.number_of_borders == 0 ? " (a sphere needs three cones, at least)" : "";
     case CE::Status::MISSING_CONDITION:
@@ -248,11 +239,12 @@ std::string advice(const Options& options, const Given_surface& given, const Mes
 
 } // namespace
 
-std::string explanation(const Options& options, const Given_surface& given, const Mesh& mesh, const Conditions& conditions, const Report& report)
+std::string explanation(const Options& options, const Given_surface& given, const Mesh& mesh, const Conditions& conditions, const Report& report,
+                        Face face)
 {
   if(report.status == CE::Status::ANGLE_OUT_OF_RANGE && report.amount > 0)
   {
-    const std::string sum = wrong_sum_of_angles(mesh, conditions);
+    const std::string sum = wrong_sum_of_angles(mesh, conditions, face);
     if(! sum.empty())
       return sum;
   }
@@ -260,9 +252,9 @@ std::string explanation(const Options& options, const Given_surface& given, cons
   {
     const std::string edge = edge_too_long(given, mesh, conditions, report);
     if(! edge.empty())
-      return CE::message(report.status) + edge + advice(options, given, mesh, report);
+      return CE::message(report.status) + edge + advice(options, report);
   }
-  return message_in_degrees(report) + advice(options, given, mesh, report);
+  return message_in_degrees(report) + advice(options, report);
 }
 
 } // namespace flattening

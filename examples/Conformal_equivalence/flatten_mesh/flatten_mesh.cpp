@@ -12,6 +12,7 @@
 #include "../include/flatten_mesh/OBJ_attribute_writer.h"
 #include "../include/flatten_mesh/options.h"
 #include "../include/flatten_mesh/Output_files.h"
+#include "../include/flatten_mesh/side_by_side.h"
 #include "../include/flatten_mesh/solve.h"
 #include "../include/flatten_mesh/Stopwatch.h"
 #include "../include/flatten_mesh/write_outputs.h"
@@ -75,14 +76,36 @@ bool is_output_in_stream(const Options& options)
       || is_standard_stream(options.report);
 }
 
-// What of the file was skipped, or is not written.
-void print_notices(std::ostream& err, const Options& options, const Given_surface& given, const Result& drawn)
+// What is said beside the figures: what of the file was skipped, or is not written.
+std::vector<std::string> notices(const Options& options, const Given_surface& given, const Result& drawn, const Material_files& beside,
+                                 const Figures& figures)
 {
-  const auto print = [&](const std::string& notice) { err << "flatten_mesh: " << one_line(text(options.input, ": ", notice)) << std::endl; };
+  std::vector<std::string> result;
+  const auto say = [&](const auto&... parts) { result.push_back(one_line(text(options.input, ": ", parts...))); };
   for(const std::string& notice : given.notices)
-    print(notice);
+    say(notice);
   if(! options.obj.empty() && ! given.attributes.face_normals.empty() && (options.target == Target::SPHERE || ! drawn.given_face.empty()))
-    print("its normals are not written: they are not those of the mesh that is written");
+    say("its normals are not written: they are not those of the mesh that is written");
+  if(! options.obj.empty() && ! given.attributes.colors.empty() && ! drawn.given_face.empty())
+    say("the colours of its vertices are not written: they are not those of the mesh that is written");
+  if(! beside.foreign_material.empty())
+    result.push_back(one_line(text("the material is in ", beside.material, ": ", beside.foreign_material,
+                                   " was not written by this program, and is kept")));
+  if(! figures.image.lost_faces.empty())
+    result.push_back(one_line(lost_triangles(options, figures)));
+  return result;
+}
+
+// Why there is no result, and for which component if each was mapped by itself.
+std::string reason_of_failure(const Options& options, const Given_surface& given, const Results& results, const Conditions& conditions,
+                              const Report& report)
+{
+  const Mesh& mesh = results.given.mesh;
+  if(results.components.empty() || CE::is_success(results.components.back().status))
+    return explanation(options, given, mesh, conditions, report, Mesh::null_face());
+  const Mapped_component& component = results.components.back();
+  return name_of_component(given, component.first_face, component.number_of_faces)
+       + explanation(options, given, mesh, conditions, report, component.first_face);
 }
 
 // Reads, solves, judges, writes; throws a `Failure` that says what went wrong.
@@ -113,26 +136,26 @@ void run(const Options& given_options, std::ostream& out, std::ostream& err)
     name_as_given(given, figures.report);
   }
   if(! figures.report)
-    fail(options.input, ": ", explanation(options, given, mesh, conditions, figures.report));
+    fail(options.input, ": ", reason_of_failure(options, given, results, conditions, figures.report));
   find_range_of_u(results.given, figures);
+  describe_components(results.given, figures);
 
   const bool is_refined = is_refinement_needed(options, figures.report, results.refinement);
   if(is_refined)
     make_refined_mesh(options, results.given, results.refinement, results.made);
   Result& drawn = is_refined || options.local_repair ? results.made : results.given;
+  if(options.target != Target::PLANE && ! results.components.empty())
+    place_images_side_by_side(options.target, results);
   describe_made_mesh(results, is_refined, figures);
   judge(options, results.given, drawn, figures);
   require_verdict(options, figures);
+  figures.notices = notices(options, given, drawn, beside, figures);
   write_outputs(options, mesh, drawn, beside, figures, files);
   if(options.quiet)
     return;
-  print_notices(err, options, given, drawn);
   print_summary(is_output_in_stream(options) ? err : out, options, mesh, figures);
-  if(! beside.foreign_material.empty())
-    err << "flatten_mesh: " << one_line(text("the material is in ", beside.material, ": ", beside.foreign_material,
-                                             " was not written by this program, and is kept")) << std::endl;
-  if(! figures.image.lost_faces.empty())
-    err << "flatten_mesh: " << one_line(lost_triangles(options, figures)) << std::endl;
+  for(const std::string& notice : figures.notices)
+    err << "flatten_mesh: " << notice << std::endl;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "../include/flatten_mesh/image_figures.h"
+#include "../include/flatten_mesh/Components.h"
 #include "../include/flatten_mesh/inscribe.h"
 
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
@@ -152,22 +153,54 @@ double largest_length_error(const CE::Intrinsic_triangulation<NT>& edges, const 
   return largest;
 }
 
-// The figures that compare with the mesh given.
-template <typename NT>
-void compare_with_given_mesh(const Options& options, const Report& report, const Result& given, const std::vector<std::array<NT, 3> >& p,
-                             Image_figures& figures)
+// The larger number; NaN stands for none.
+void include(double x, double& largest)
 {
-  const bool is_flipped = report.statistics.number_of_flips != 0;
+  if(! (x <= largest) && ! std::isnan(x))
+    largest = x;
+}
+
+// The figures that compare with the mesh given, of one component.
+template <typename NT>
+void compare_with_component(const Options& options, bool is_flipped, const Result& given, const std::vector<std::array<NT, 3> >& p,
+                            Image_figures& figures)
+{
   if(options.target == Target::DISK && is_flipped)
     return;
   const auto mesh = CE::import_mesh<NT>(given.mesh, CGAL::parameters::mollification(options.mollification));
   if(options.target == Target::SPHERE)
-    figures.barycentre = largest_coordinate_of_barycentre(CE::internal::moebius_weights(mesh.triangulation, given_moebius_weights(options)), p);
+  {
+    const std::vector<double> weights = CE::internal::moebius_weights(mesh.triangulation, given_moebius_weights(options));
+    include(largest_coordinate_of_barycentre(weights, p), figures.barycentre);
+  }
   if(is_flipped)
     return;
   const auto chords = with_chords(mesh.triangulation, p);
-  figures.cross_ratio_error = static_cast<double>(CE::largest_cross_ratio_difference(mesh.triangulation, chords));
-  figures.length_error = largest_length_error(mesh.triangulation, chords, given);
+  include(static_cast<double>(CE::largest_cross_ratio_difference(mesh.triangulation, chords)), figures.cross_ratio_error);
+  include(largest_length_error(mesh.triangulation, chords, given), figures.length_error);
+}
+
+// The largest figures of all components. Each has lengths of its own with --mollify.
+template <typename NT>
+void compare_with_given_mesh(const Options& options, const Report& report, const std::vector<Mapped_component>& mapped, const Result& given,
+                             const std::vector<std::array<NT, 3> >& p, Image_figures& figures)
+{
+  if(mapped.empty())
+    return compare_with_component(options, report.statistics.number_of_flips != 0, given, p, figures);
+  const Components components(given.mesh);
+  for(std::size_t c = 0; c < components.size(); ++c)
+  {
+    Component_mesh part;
+    components.get_mesh(c, part);
+    Result its_result(part.mesh);
+    std::vector<std::array<NT, 3> > its_points;
+    for(Vertex v : part.mesh.vertices())
+    {
+      its_result.u[v] = given.u[part.vertices[v.idx()]];
+      its_points.push_back(p[part.vertices[v.idx()].idx()]);
+    }
+    compare_with_component(options, mapped[c].statistics.number_of_flips != 0, its_result, its_points, figures);
+  }
 }
 
 } // namespace
@@ -177,7 +210,8 @@ std::vector<Face> lost_faces(const Mesh& mesh, const std::vector<Space_point>& p
   return find_lost_faces(mesh, p, is_sphere);
 }
 
-Image_figures judge_image(const Options& options, const Report& report, const Result& given, const Result& drawn)
+Image_figures judge_image(const Options& options, const Report& report, const std::vector<Mapped_component>& components, const Result& given,
+                          const Result& drawn)
 {
   Image_figures result;
   const bool is_sphere = options.target == Target::SPHERE;
@@ -186,7 +220,7 @@ Image_figures judge_image(const Options& options, const Report& report, const Re
     result.lost_faces = find_lost_faces(drawn.mesh, drawn_points, is_sphere);
     result.distance_from_sphere = is_sphere ? largest_distance_from_sphere(drawn.mesh, drawn_points, true)
                                             : largest_distance_from_sphere(given.mesh, given_points, false);
-    compare_with_given_mesh(options, report, given, given_points, result);
+    compare_with_given_mesh(options, report, components, given, given_points, result);
   };
   if(given.wide_image.empty())
   {

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "../include/flatten_mesh/figures.h"
+#include "../include/flatten_mesh/Components.h"
 #include "../include/flatten_mesh/layout_seams.h"
 #include "../include/flatten_mesh/Stopwatch.h"
 
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 #include <CGAL/number_utils.h>
 
@@ -23,20 +25,11 @@ namespace flattening {
 
 namespace {
 
-// A point of the lattice turned by 2 pi `quanta` / `symmetry`.
-std::array<std::int64_t, 2> turned(std::array<std::int64_t, 2> p, int quanta, int symmetry)
-{
-  const int smallest = has_hexagons(symmetry) ? 6 : 4; // the whole symmetry of the lattice
-  for(int k = quanta * (smallest / symmetry); k > 0; --k)
-    p = smallest == 6 ? std::array<std::int64_t, 2>{{-p[1], p[0] + p[1]}} : std::array<std::int64_t, 2>{{-p[1], p[0]}};
-  return p;
-}
-
 // The motion back.
 void invert(Seam_path& path, int symmetry)
 {
   path.quanta = (symmetry - path.quanta) % symmetry;
-  const std::array<std::int64_t, 2> p = turned(path.translation, path.quanta, symmetry);
+  const std::array<std::int64_t, 2> p = CE::internal::Texture_lattice(symmetry).rotated(path.quanta, path.translation);
   path.translation = {{ -p[0], -p[1] }};
 }
 
@@ -80,13 +73,14 @@ void take_over_verdict(Target target, const Result& drawn, Figures& figures)
   const Image_figures& image = figures.image;
   CE::Layout_verdict<Mesh>& verdict = figures.verdict;
   const bool is_wide = ! drawn.wide_image.empty(), is_sphere = target == Target::SPHERE;
+  const std::size_t number_of_components = figures.report.topology.number_of_components;
   verdict.flipped_faces.clear();
   verdict.degenerate_faces.clear();
   verdict.number_of_flipped_triangles = image.lost_faces.size() - image.number_of_flat_faces;
   verdict.number_of_degenerate_triangles = image.number_of_flat_faces;
   if(! image.lost_faces.empty())
     verdict.injectivity = CE::Injectivity::NO;
-  else if(is_sphere ? std::abs(image.solid_angle - 4 * CGAL_PI) < 1e-6 : is_wide)
+  else if(is_sphere ? std::abs(image.solid_angle / (4 * CGAL_PI) - double(number_of_components)) < 1e-7 : is_wide)
     verdict.injectivity = CE::Injectivity::YES;
   if(is_wide)
     figures.number_of_rounded_triangles = lost_faces(drawn.mesh, drawn.image, is_sphere).size();
@@ -138,11 +132,34 @@ void find_range_of_u(const Result& result, Figures& figures)
     }
 }
 
+void describe_components(const Result& given, Figures& figures)
+{
+  if(figures.report.topology.number_of_components < 2)
+    return;
+  const Components components(given.mesh);
+  for(std::size_t c = 0; c < components.size(); ++c)
+  {
+    figures.component_figures.emplace_back();
+    figures.component_figures.back().first_face = Face(components[c].first_face);
+    figures.component_figures.back().topology = CE::surface_topology(components[c]);
+  }
+  for(Vertex v : given.mesh.vertices())
+    if(! given.mesh.is_isolated(v))
+    {
+      Component_figures& its_figures = figures.component_figures[components.of_vertex(v)];
+      its_figures.u_min = (std::min)(its_figures.u_min, given.u[v]);
+      its_figures.u_max = (std::max)(its_figures.u_max, given.u[v]);
+    }
+  for(const auto& cone : figures.report.cones)
+    ++figures.component_figures[components.of_vertex(cone.vertex)].number_of_cones;
+}
+
 void describe_made_mesh(const Results& results, bool is_refined, Figures& figures)
 {
   figures.is_refined = is_refined;
   figures.number_of_crossings = results.refinement.crossings.size();
   figures.repair = results.repair;
+  figures.components = results.components;
   figures.placing_seconds = results.placing_seconds;
   figures.number_of_made_vertices = results.made.mesh.number_of_vertices();
   figures.number_of_made_faces = results.made.mesh.number_of_faces();
@@ -158,7 +175,7 @@ void judge(const Options& options, const Result& given, Result& drawn, Figures& 
   figures.distortion = CE::compute_conformal_distortion(drawn.mesh, drawn.uv);
   if(options.target != Target::PLANE)
   {
-    figures.image = judge_image(options, figures.report, given, drawn);
+    figures.image = judge_image(options, figures.report, figures.components, given, drawn);
     take_over_verdict(options.target, drawn, figures);
   }
   else if(options.seamless)

@@ -39,14 +39,16 @@ po::options_description visible_options()
     ("boundary", po::value<std::vector<std::string> >()->composing(),
        "natural: the border keeps its lengths (default)\n"
        "rectangle[=i,j,k,l]: with corners at these vertices of one border, other borders stay natural; "
-       "or, on a topological disk, with chosen corners\n"
+       "or, on topological disks, each with chosen corners\n"
        "angles=FILE: angle sums in degrees, lines 'vertex-index angle'\n"
        "scale=FILE: u, lines 'vertex-index u'\n"
        "angles and scale may both be given; border vertices not named have u = 0\n"
        "disk: the same as --target disk")
     ("target", po::value<std::string>()->default_value("plane"), "plane\n"
        "sphere: the unit sphere, for closed surfaces without handles; the vertices of the OBJ file are points of the sphere\n"
-       "disk: the unit disk, for topological disks; all border vertices are on the circle")
+       "disk: the unit disk, for topological disks; all border vertices are on the circle\n"
+       "Several components: each has a sphere or disk of its own, the i-th (from 0) of n with its centre in (2.25 (i mod c), 2.25 floor(i / c), 0), "
+       "where c is the root of n, rounded up; spheres are objects component_i of the OBJ file, unless INPUT has objects")
     ("moebius-weights", po::value<std::string>()->default_value("vertices"), "vertices | areas: what has its barycentre in the centre "
        "of the sphere, or of the sphere of which the disk is one half")
     ("disk-centre", po::value<std::string>(), "I: this vertex, inside the surface, becomes the centre of the disk instead")
@@ -57,15 +59,16 @@ po::options_description visible_options()
     ("cones", po::value<std::string>(),
        "FILE: cones inside the surface, lines 'vertex-index [angle in degrees | free]'; at a free cone, or where nothing "
        "follows the vertex, u = 0 and the angle is found. Closed surfaces need cones, except for tori\n"
-       "auto[=N]: N cones place themselves, or as many as it takes for --max-scale or --max-area (a file of such a name is given as ./auto)")
+       "auto[=N]: N cones place themselves, or as many as it takes for --max-scale or --max-area (a file of such a name is given as ./auto); on each "
+       "component, and on one with fewer than N vertices inside as many as it has, unless all are such")
     ("max-scale", po::value<std::string>(), "U: with --cones auto, cones are placed until |u| is at most U everywhere")
     ("max-area", po::value<std::string>(), "A: with --cones auto, cones are placed until no triangle is scaled by more than the factor A, "
        "relative to the mean of the areas")
     ("quantize", po::value<std::string>(), "[DEGREES]: the angles of cones are multiples of this one, 360 / n (90 if none "
        "is given): those of --cones auto are rounded, those of a file have to be")
     ("seamless", po::bool_switch(), "the layout is scaled, turned and deformed as little as it takes, so that a texture of tiles fits across the "
-       "seams; the tiles are squares with --quantize 90 (default) or 180, hexagons with 60 or 120")
-    ("tiles", po::value<std::string>(), "T: with --seamless, about so many tiles; by default as few as --distortion allows")
+       "seams; the tiles are squares with --quantize 90 (default) or 180, hexagons with 60 or 120. Each component by itself; all fit the same tiles")
+    ("tiles", po::value<std::string>(), "T: with --seamless, about so many tiles on each component; by default as few as --distortion allows")
     ("distortion", po::value<std::string>()->default_value("1.02"), "D: with --seamless, bound on the mean quasi-conformal factor of the deformation")
     ("lattice-coordinates", po::bool_switch(), "with --seamless, the texture coordinates are (a, b) for the point "
        "a + b e^(2 pi i / m), where m is 4 for squares and 6 for hexagons: then the motions across the seams are exact for hexagons, too")

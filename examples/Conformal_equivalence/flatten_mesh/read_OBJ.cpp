@@ -88,14 +88,20 @@ private:
     }
   }
 
-  // A weight or a color may follow.
+  // A weight may follow, and a color.
   void read_vertex()
   {
     soup_.points.emplace_back();
     for(double& x : soup_.points.back())
       x = in_.number_in_line();
-    while(! in_.at_end_of_line())
-      in_.number_in_line();
+    std::array<double, 3> last{{ 0, 0, 0 }};
+    std::size_t number = 0;
+    for(; ! in_.at_end_of_line(); ++number)
+      last = {{ last[1], last[2], in_.number_in_line() }};
+    if(number != 3 && number != 4)
+      return;
+    soup_.attributes.colors.resize(soup_.points.size());
+    soup_.attributes.colors.back() = last;
   }
 
   // A number from 1, or backwards from the last if negative, as one from 0.

@@ -1,6 +1,7 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "../include/flatten_mesh/Components.h"
 #include "../include/flatten_mesh/doors.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/precision.h"
@@ -16,21 +17,36 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace flattening {
 
 namespace {
 
-// The weights of all vertices follow from the scale factors, and the scale factors of crossings from their weights.
+// The weights of all vertices follow from the scale factors, and the scale factors of crossings from their weights, up to a constant on each
+// component that was mapped by itself.
 void find_scale_factors(const Result& given, Result& refined)
 {
-  double least = std::numeric_limits<double>::infinity();
+  const Components components(given.mesh);
+  std::vector<double> least(components.size(), std::numeric_limits<double>::infinity()), largest_weight(components.size(), 0.);
   for(Vertex v : given.mesh.vertices())
     if(! given.mesh.is_isolated(v))
-      least = (std::min)(least, given.u[v]);
-  for(Vertex v : refined.mesh.vertices())
-    refined.u[v] = v.idx() < given.mesh.number_of_vertices() ? given.u[v] : least - std::log(refined.weight[v]);
+    {
+      const std::uint32_t c = components.of_vertex(v);
+      if(refined.weight[v] > largest_weight[c])
+      {
+        largest_weight[c] = refined.weight[v];
+        least[c] = given.u[v] + std::log(refined.weight[v]);
+      }
+    }
+  for(Vertex v : given.mesh.vertices())
+    refined.u[v] = given.u[v];
+  for(Face f : refined.mesh.faces())
+    for(Vertex v : vertices_of_face(refined.mesh, f))
+      if(v.idx() >= given.mesh.number_of_vertices())
+        refined.u[v] = least[components.of_face(Face(static_cast<Mesh::size_type>(refined.given_face[f.idx()])))] - std::log(refined.weight[v]);
 }
 
 // Of a refinement, which knows points by corners.

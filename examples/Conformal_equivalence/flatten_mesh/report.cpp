@@ -134,7 +134,8 @@ void add_tiling(const Figures& figures, Lines& lines)
     return;
   lines.emplace_back("seam paths", text(figures.seams.size()));
   lines.emplace_back("tiles", text(t.number_of_tiles, has_hexagons(t.symmetry) ? " hexagons" : " squares"));
-  lines.emplace_back("scale and rotation", text(t.scale, ", ", in_degrees(t.rotation), " degrees"));
+  if(! std::isnan(t.scale)) // otherwise each component has its own
+    lines.emplace_back("scale and rotation", text(t.scale, ", ", in_degrees(t.rotation), " degrees"));
   lines.emplace_back("deformation", text("mean ", t.mean_distortion, ", max ", t.maximum_distortion,
                                          t.is_closest ? "" : " (a smaller one may exist)"));
 }
@@ -144,6 +145,8 @@ void add_image(Target target, const Figures& figures, Lines& lines)
 {
   const Image_figures& image = figures.image;
   const auto add = [&](const char* name, double x) { if(! std::isnan(x)) lines.emplace_back(name, text(x)); };
+  if(! figures.components.empty())
+    lines.emplace_back("side by side", text(figures.components.size(), target == Target::SPHERE ? " spheres" : " disks"));
   add(target == Target::SPHERE ? "distance from sphere" : "distance from circle", image.distance_from_sphere);
   add("solid angle / (4 pi)", image.solid_angle / (4 * CGAL_PI));
   add("barycentre", image.barycentre);
@@ -306,6 +309,39 @@ nlohmann::ordered_json json_lattices(const Report& report)
   return lattices;
 }
 
+// How one component was mapped by itself.
+void add_json_mapping(const Options& options, const Mapped_component& component, nlohmann::ordered_json& json)
+{
+  const CE::Statistics& s = component.statistics;
+  const CE::Tiling& t = component.tiling;
+  json["newton_steps"] = s.number_of_iterations;
+  json["flips"] = s.number_of_flips;
+  json["residual"] = s.residual;
+  if(options.target != Target::PLANE)
+    json["centre"] = component.centre;
+  if(t.symmetry != 0)
+    json["seamless"] = { {"tiles", t.number_of_tiles}, {"scale", t.scale}, {"rotation_degrees", in_degrees(t.rotation)},
+                         {"distortion", { {"mean", t.mean_distortion}, {"max", t.maximum_distortion} }}, {"closest", t.is_closest} };
+}
+
+// Null if there is only one.
+nlohmann::ordered_json json_components(const Options& options, const Figures& figures)
+{
+  if(figures.component_figures.empty())
+    return nullptr;
+  auto components = nlohmann::ordered_json::array();
+  for(std::size_t c = 0; c < figures.component_figures.size(); ++c)
+  {
+    const Component_figures& component = figures.component_figures[c];
+    components.push_back({ {"face", figures.given->face(component.first_face)}, {"triangles", component.topology.number_of_faces},
+                           {"borders", component.topology.number_of_borders}, {"genus", component.topology.genus},
+                           {"u_min", component.u_min}, {"u_max", component.u_max}, {"cones", component.number_of_cones} });
+    if(! figures.components.empty() && (options.target != Target::PLANE || options.seamless))
+      add_json_mapping(options, figures.components[c], components.back());
+  }
+  return components;
+}
+
 // NaN becomes null.
 void add_json_image(const Options& options, const Figures& figures, nlohmann::ordered_json& json)
 {
@@ -339,6 +375,7 @@ std::string json_report(const Options& options, const Mesh& mesh, const Figures&
   json["genus"] = t.genus;
   json["borders"] = t.number_of_borders;
   json["components"] = t.number_of_components;
+  json["component_figures"] = json_components(options, figures);
   json["retriangulation"] = { {"mode", mode_text(options)}, {"class", class_text(s)}, {"flips", s.number_of_flips},
                               {"resolving_flips", s.number_of_resolving_flips}, {"doubled", s.is_doubled},
                               {"lost_border_edges", figures.report.lost_border_edges.size()},
@@ -381,6 +418,7 @@ std::string json_report(const Options& options, const Mesh& mesh, const Figures&
   json["seconds"] = { {"import", figures.reading_seconds + s.seconds.import}, {"place", figures.placing_seconds}, {"solve", s.seconds.solve},
                       {"cut", s.seconds.cut}, {"layout", s.seconds.layout},
                       {"verify", s.seconds.verify + figures.verifying_seconds}, {"write", figures.writing_seconds} };
+  json["notices"] = figures.notices;
   json["peak_memory_bytes"] = peak_memory_bytes();
   json["seed"] = nullptr;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -17,19 +17,29 @@ namespace flattening {
 namespace {
 
 // The layout was found in coordinates (a, b) of the lattice: these are written, Cartesian ones are drawn.
-void keep_lattice_coordinates(unsigned int symmetry, Result& result)
+void keep_lattice_coordinates(int symmetry, Result& result)
 {
-  UV_map lattice = result.mesh.add_property_map<Halfedge, Kernel::Point_2>("h:lattice_uv").first;
+  result.lattice_uv = add_lattice_coordinates(result.mesh);
   for(Halfedge h : result.mesh.halfedges())
-  {
-    const Kernel::Point_2 p = lattice[h] = result.uv[h];
-    if(has_hexagons(static_cast<int>(symmetry)))
-      result.uv[h] = Kernel::Point_2(p.x() + p.y() / 2, p.y() * (std::sqrt(3.) / 2));
-  }
-  result.lattice_uv = lattice;
+    (*result.lattice_uv)[h] = result.uv[h];
+  draw_lattice_coordinates(symmetry, result);
 }
 
 } // namespace
+
+UV_map add_lattice_coordinates(Mesh& mesh)
+{
+  return mesh.add_property_map<Halfedge, Kernel::Point_2>("h:lattice_uv").first;
+}
+
+void draw_lattice_coordinates(int symmetry, Result& result)
+{
+  for(Halfedge h : result.mesh.halfedges())
+  {
+    const Kernel::Point_2 p = (*result.lattice_uv)[h];
+    result.uv[h] = has_hexagons(symmetry) ? Kernel::Point_2(p.x() + p.y() / 2, p.y() * (std::sqrt(3.) / 2)) : p;
+  }
+}
 
 Report flatten_seamlessly(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
 {
@@ -48,7 +58,7 @@ Report flatten_seamlessly(const Options& options, const Conditions& conditions, 
   if(options.places_cones) // what is counted nowhere else
     results.placing_seconds = (std::max)(0., watch.seconds() - (s.import + s.solve + s.cut + s.layout + s.verify));
   if(report && options.lattice_coordinates)
-    keep_lattice_coordinates(options.quanta_of_turn, given);
+    keep_lattice_coordinates(static_cast<int>(options.quanta_of_turn), given);
   return report;
 }
 

@@ -67,9 +67,28 @@ std::array<Vertex, 3> given_disk_points(const Options& options, const Mesh& mesh
   const std::vector<Halfedge> border = border_cycle(mesh, border_halfedge_to(mesh, points[0])); // which is clockwise
   const auto place = [&](Vertex v)
     { return std::find_if(border.begin(), border.end(), [&](Halfedge h) { return mesh.target(h) == v; }) - border.begin(); };
+  for(std::size_t k = 1; k < 3; ++k)
+    if(place(points[k]) == std::ptrdiff_t(border.size()))
+      fail("--disk-points: vertex ", indices[k], " is not on the same border as vertex ", indices[0]);
   if(place(points[1]) < place(points[2]))
     fail("--disk-points: the vertices are given clockwise; counterclockwise: ", indices[0], ',', indices[2], ',', indices[1]);
   return points;
+}
+
+void check_vertices_of_image(const Options& options, const Mesh& mesh, const Components& components)
+{
+  given_vertex_at_infinity(options, mesh);
+  if(options.disk_centre)
+    given_disk_centre(options, mesh);
+  if(! options.disk_points)
+    return;
+  for(std::size_t k = 0; k < 3; ++k)
+    given_vertex("--disk-points", (*options.disk_points)[k], true, mesh);
+  const auto component = [&](std::size_t k) { return components.of_vertex(Vertex(static_cast<Mesh::size_type>((*options.disk_points)[k]))); };
+  for(std::size_t k = 1; k < 3; ++k)
+    if(component(k) != component(0))
+      fail("--disk-points: vertex ", (*options.disk_points)[k], " is not on the component of vertex ", (*options.disk_points)[0]);
+  given_disk_points(options, mesh);
 }
 
 Report map_to_sphere(const Options& options, Results& results, Progress& progress)

@@ -3,6 +3,7 @@
 
 #include "../include/flatten_mesh/write_outputs.h"
 #include "../include/flatten_mesh/color_scale.h"
+#include "../include/flatten_mesh/Components.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/Stopwatch.h"
 #include "../include/flatten_mesh/write_HTML.h"
@@ -37,13 +38,25 @@ std::string name_without_folder(const std::string& file)
   return std::filesystem::path(file).filename().string();
 }
 
-// A vertex with this point, with as many digits as it takes to read it back.
+// Its point, beside those of other components.
+template <typename NT>
+std::array<NT, 3> placed_point(const Result& result, const std::vector<std::array<NT, 3> >& points, std::size_t v)
+{
+  std::array<NT, 3> p = points[v];
+  if(! result.centres.empty())
+    for(std::size_t k = 0; k < 2; ++k)
+      p[k] += NT(result.centres[v][k]);
+  return p;
+}
+
+// A vertex with this point, with as many digits as it takes to read it back; `i` is its number in the file read.
 template <typename Point>
-void write_vertex(Text_buffer& buffer, const Point& point)
+void write_vertex(Text_buffer& buffer, const Point& point, const OBJ_attribute_writer& attributes, std::size_t i)
 {
   buffer << 'v';
   for(const auto& x : point)
     CE::internal::write_obj_number(buffer << ' ', x);
+  attributes.write_after_point(buffer, i);
   buffer << '\n';
 }
 
@@ -53,12 +66,16 @@ bool write_sphere_OBJ(std::ostream& out, const Given_surface& given, const Resul
                       const std::vector<Point>& points)
 {
   const Written_faces faces(given, result);
-  OBJ_attribute_writer attribute_writer(attributes, false, CE::IO::OBJ_material());
+  OBJ_attribute_writer attribute_writer(attributes, false, faces.are_of_file(), CE::IO::OBJ_material());
   {
     Text_buffer buffer(out);
     attribute_writer.write_libraries(buffer);
     for(std::size_t v = 0; v < points.size(); ++v)
-      write_vertex(buffer, points[faces.are_of_file() && v < given.number_of_vertices ? given.representative_of(v) : v]);
+    {
+      const bool is_of_file = faces.are_of_file() && v < given.number_of_vertices;
+      write_vertex(buffer, placed_point(result, points, is_of_file ? given.representative_of(v) : v), attribute_writer,
+                   is_of_file || ! faces.are_of_file() ? v : given.vertex(Vertex(static_cast<Mesh::size_type>(v))));
+    }
     write_face_lines(buffer, faces, attribute_writer, true, [](Text_buffer&, Halfedge) {});
   }
   out.flush();
@@ -72,17 +89,17 @@ bool write_layout_OBJ(std::ostream& out, const Given_surface& given, const Resul
 {
   const Mesh& mesh = result.mesh;
   const Written_faces faces(given, result);
-  OBJ_attribute_writer attribute_writer(attributes, faces.are_of_file(), material);
+  OBJ_attribute_writer attribute_writer(attributes, faces.are_of_file(), faces.are_of_file(), material);
   const auto number = get(CGAL::dynamic_halfedge_property_t<std::size_t>(), mesh);
   {
     Text_buffer buffer(out);
     attribute_writer.write_libraries(buffer);
     if(faces.are_of_file() && ! given.is_mesh())
-      for(const auto& point : given.soup.points)
-        write_vertex(buffer, point);
+      for(std::size_t i = 0; i < given.soup.points.size(); ++i)
+        write_vertex(buffer, given.soup.points[i], attribute_writer, i);
     else
       for(Vertex v : mesh.vertices())
-        write_vertex(buffer, std::array<double, 3>{{ mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z() }});
+        write_vertex(buffer, std::array<double, 3>{{ mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z() }}, attribute_writer, v.idx());
     CE::internal::write_obj_texture_coordinates(buffer, mesh, uv, weights, number);
     attribute_writer.write_normals(buffer);
     write_face_lines(buffer, faces, attribute_writer, false, [&](Text_buffer& b, Halfedge h) { b << '/' << get(number, h) + 1; });
@@ -105,17 +122,33 @@ UV_map hemispheres(Result& result)
     for(Halfedge h : result.mesh.halfedges_around_face(result.mesh.halfedge(f)))
     {
       const std::array<double, 2> p = plane(result.mesh.target(h));
-      uv[h] = Kernel::Point_2(is_front ? p[0] : distance_of_hemispheres - p[0], p[1]);
+      const std::array<double, 2> c = result.centres.empty() ? std::array<double, 2>{{ 0, 0 }} : result.centres[result.mesh.target(h).idx()];
+      uv[h] = Kernel::Point_2(2 * c[0] + (is_front ? p[0] : distance_of_hemispheres - p[0]), c[1] + p[1]);
     }
   }
   return uv;
 }
 
+// By component.
+std::vector<std::array<double, 2> > centres(const Figures& figures)
+{
+  std::vector<std::array<double, 2> > result;
+  for(const Mapped_component& component : figures.components)
+    result.push_back(component.centre);
+  if(result.empty())
+    result.push_back({{0, 0}});
+  return result;
+}
+
 // For a layout that has nothing to do with that of the surface.
-SVG_options hemisphere_options(SVG_options options)
+SVG_options hemisphere_options(SVG_options options, const Figures& figures)
 {
   options.checkerboard = options.seams = options.cones = false;
-  options.circles = { {{0, 0, 1}}, {{distance_of_hemispheres, 0, 1}} };
+  for(const std::array<double, 2>& c : centres(figures))
+  {
+    options.circles.push_back({{ 2 * c[0], c[1], 1 }});
+    options.circles.push_back({{ 2 * c[0] + distance_of_hemispheres, c[1], 1 }});
+  }
   return options;
 }
 
@@ -146,9 +179,10 @@ HTML_options drawing_options(const Options& options, const Mesh& mesh, const Fig
   }
   drawing.svg.legend = options.color_by_quasi_conformal_factor ? "quasi-conformal factor" : "u";
   if(options.target == Target::SPHERE)
-    drawing.svg = hemisphere_options(drawing.svg);
+    drawing.svg = hemisphere_options(drawing.svg, figures);
   else if(options.target == Target::DISK)
-    drawing.svg.circles = { {{0, 0, 1}} };
+    for(const std::array<double, 2>& c : centres(figures))
+      drawing.svg.circles.push_back({{ c[0], c[1], 1 }});
   return drawing;
 }
 
@@ -194,10 +228,26 @@ void write_tile_material(std::ostream& out, const std::string& name, const std::
   out << material_beginning(name) << "-o 0.25 0.25 -s 1 1 1 " << texture << '\n';
 }
 
-// Writes the faces of the file, unless another mesh was made.
-void write_obj(const Options& options, const Given_surface& given, const Result& result, const Material_files& beside, Output_files& files)
+// The number of the component of each face of the file; faces that are in none, as they were dropped, follow the one before.
+std::vector<std::size_t> components_of_faces(const Given_surface& given, const Mesh& mesh)
 {
-  const OBJ_attributes attributes = seen_from(options.obj, options.input, given.attributes);
+  const Components components(mesh);
+  std::vector<std::size_t> result(given.number_of_faces, Components::none);
+  for(Face f : mesh.faces())
+    result[given.face(f)] = components.of_face(f);
+  std::size_t last = 0;
+  for(std::size_t& c : result)
+    last = c = c == Components::none ? last : c;
+  return result;
+}
+
+// Writes the faces of the file, unless another mesh was made.
+void write_obj(const Options& options, const Given_surface& given, const Mesh& mesh, const Result& result, const Figures& figures,
+               const Material_files& beside, Output_files& files)
+{
+  OBJ_attributes attributes = seen_from(options.obj, options.input, given.attributes);
+  if(options.target == Target::SPHERE && ! figures.components.empty())
+    name_components(components_of_faces(given, mesh), attributes);
   CE::IO::OBJ_material material;
   material.file = name_without_folder(beside.material);
   files.write(options.obj, [&](std::ostream& out)
@@ -289,7 +339,7 @@ void write_outputs(const Options& options, const Mesh& mesh, Result& result, con
   const Stopwatch watch;
   const bool has_faces_of_file = &result.mesh == &mesh && ! figures.given->is_mesh();
   if(! options.obj.empty())
-    write_obj(options, *figures.given, result, beside, files);
+    write_obj(options, *figures.given, mesh, result, figures, beside, files);
   if(! options.svg.empty() || ! options.html.empty())
   {
     const Face_map<double> colors = face_colors(options, result);

@@ -55,6 +55,9 @@ Options with_vertices_of_mesh(Options options, const Given_surface& given);
 // Names vertices and faces in the report as the file numbers them.
 void name_as_given(const Given_surface& given, Report& report);
 
+// The beginning of a message about a component of the mesh, told by its first face.
+std::string name_of_component(const Given_surface& given, Face first_face, std::size_t number_of_triangles);
+
 // Whether the edge divides a face of the file.
 bool is_diagonal(const Given_surface& given, const Mesh& mesh, Mesh::Edge_index e);
 

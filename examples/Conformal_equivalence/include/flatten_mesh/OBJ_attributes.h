@@ -13,7 +13,8 @@
 
 namespace flattening {
 
-// What an OBJ file says of its faces besides their vertices, to be written again: objects, groups, materials, smoothing and normals.
+// What an OBJ file says besides points and faces, to be written again: objects, groups, materials, smoothing and normals of faces, and colours of
+// vertices.
 struct OBJ_attributes
 {
   enum Key { OBJECT, GROUP, MATERIAL, SMOOTHING, NUMBER_OF_KEYS };
@@ -27,6 +28,7 @@ struct OBJ_attributes
   std::vector<std::size_t> first_faces;         // of the sections, in increasing order
   std::vector<std::array<double, 3> > normals;
   std::vector<std::vector<std::uint32_t> > face_normals; // by face, by corner; empty for a face without normals, or if there is none at all
+  std::vector<std::optional<std::array<double, 3> > > colors; // by vertex; may end before the last one, and is empty if there is none at all
 };
 
 } // namespace flattening

@@ -17,7 +17,8 @@ struct Conditions
   Vertex_map<bool> is_constrained;
   Mesh::Property_map<Mesh::Edge_index, bool> is_diagonal; // of a face with more than three sides: no cut passes there
 
-  // u = 0 on all borders: they keep their lengths; no cones
+  // u = 0 on all borders: they keep their lengths; no cones, and no diagonals
+  explicit Conditions(Mesh& mesh);
   Conditions(const Given_surface& given, Mesh& mesh);
 };
 

@@ -7,6 +7,7 @@
 #ifndef FLATTEN_MESH_DOORS_H
 #define FLATTEN_MESH_DOORS_H
 
+#include "Components.h"
 #include "conditions.h"
 #include "options.h"
 #include "Progress.h"
@@ -36,6 +37,9 @@ Report map_to_sphere(const Options& options, Results& results, Progress& progres
 Report map_to_sphere_precisely(const Options& options, Results& results, Progress& progress);
 Report map_to_disk(const Options& options, Results& results, Progress& progress);
 Report map_to_disk_precisely(const Options& options, Results& results, Progress& progress);
+
+// Throws a `Failure` unless the vertices that steer the map to the sphere or the disk are on one component.
+void check_vertices_of_image(const Options& options, const Mesh& mesh, const Components& components);
 
 // Makes the mesh of the refinement, of triangles if it can hold them.
 void make_refined_mesh(const Options& options, const Result& given, const Refinement& refinement, Result& refined);

@@ -14,8 +14,10 @@
 
 namespace flattening {
 
-// Why there is no result, where, and what may help: in degrees, as angles are given to the program.
-std::string explanation(const Options& options, const Given_surface& given, const Mesh& mesh, const Conditions& conditions, const Report& report);
+// Why there is no result, where, and what may help: in degrees, as angles are given to the program. If the report is about one component only, `face`
+// is one of its faces.
+std::string explanation(const Options& options, const Given_surface& given, const Mesh& mesh, const Conditions& conditions, const Report& report,
+                        Face face);
 
 } // namespace flattening
 

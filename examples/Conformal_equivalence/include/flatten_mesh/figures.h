@@ -12,15 +12,26 @@
 #include "seamless.h"
 
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 
 #include <cstddef>
+#include <limits>
 #include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace flattening {
+
+// Of one component of several.
+struct Component_figures
+{
+  Face first_face;
+  CE::Surface_topology topology;
+  double u_min = std::numeric_limits<double>::infinity(), u_max = -std::numeric_limits<double>::infinity();
+  std::size_t number_of_cones = 0;
+};
 
 // Everything that is known at the end.
 struct Figures
@@ -31,6 +42,8 @@ struct Figures
   CE::Conformal_distortion<Mesh> distortion;
   Image_figures image; // of the sphere or the disk
   std::vector<Seam_path> seams; // of a seamless layout
+  std::vector<Component_figures> component_figures; // if there are several
+  std::vector<Mapped_component> components;         // the same, if each was mapped by itself
   std::size_t number_of_isolated_vertices = 0;
   std::size_t number_of_rounded_triangles = 0; // with --precision: those that are positive, but not in double
   double u_min = 0, u_max = 0;
@@ -44,10 +57,15 @@ struct Figures
   std::size_t number_of_crossings = 0, number_of_made_vertices = 0, number_of_made_faces = 0;
   Repair_figures repair;
 
+  std::vector<std::string> notices; // what is said beside the figures
+
   double reading_seconds = 0, placing_seconds = 0, verifying_seconds = 0, writing_seconds = 0;
 };
 
 void find_range_of_u(const Result& result, Figures& figures);
+
+// If there are several.
+void describe_components(const Result& given, Figures& figures);
 
 void describe_made_mesh(const Results& results, bool is_refined, Figures& figures);
 

@@ -33,8 +33,10 @@ struct Image_figures
 // The triangles that are not positive: on the sphere seen from outside, on the disk from above. Exactly for `double`.
 std::vector<Face> lost_faces(const Mesh& mesh, const std::vector<Space_point>& p, bool is_sphere);
 
-// `drawn` is what is written: of the mesh given, or of its refinement, the vertices of which begin with those of the mesh.
-Image_figures judge_image(const Options& options, const Report& report, const Result& given, const Result& drawn);
+// `drawn` is what is written: of the mesh given, or of its refinement, the vertices of which begin with those of the mesh. `components`: those that
+// were mapped by themselves. Figures are the largest of all of these, the solid angle is the sum.
+Image_figures judge_image(const Options& options, const Report& report, const std::vector<Mapped_component>& components, const Result& given,
+                          const Result& drawn);
 
 } // namespace flattening
 

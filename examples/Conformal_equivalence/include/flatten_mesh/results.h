@@ -9,7 +9,10 @@
 
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
+#include <CGAL/Conformal_equivalence/Statistics.h>
+#include <CGAL/Conformal_equivalence/Status.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -31,9 +34,11 @@ struct Result
   // Of a mesh that was made: by face, the face given that it is part of, or that it is made of
   std::vector<std::size_t> given_face;
 
-  // With --target sphere or disk: the images of the vertices, in the plane z = 0 for the disk; the origin for isolated ones
+  // With --target sphere or disk: the images of the vertices, in the plane z = 0 for the disk; the origin for isolated ones. If there are several
+  // components, each is on a unit sphere or disk about the origin, which is written with its centre elsewhere.
   std::vector<Space_point> image;
   std::vector<Wide_space_point> wide_image; // with --precision
+  std::vector<std::array<double, 2> > centres; // by vertex; empty: all are the origin
 
   explicit Result(Mesh& mesh)
     : mesh(mesh),
@@ -41,6 +46,17 @@ struct Result
       u(mesh.add_property_map<Vertex, double>("v:u", 0.).first),
       weight(mesh.add_property_map<Vertex, double>("v:weight", 1.).first)
   {}
+};
+
+// What is known of a component that was mapped by itself.
+struct Mapped_component
+{
+  Face first_face;
+  std::size_t number_of_faces = 0;
+  CE::Status status = CE::Status::OK;
+  CE::Statistics statistics;
+  CE::Tiling tiling;
+  std::array<double, 2> centre = {{0, 0}}; // of its sphere, in the plane z = 0, or of its disk, in what is written
 };
 
 // How a copy of the mesh was changed by --local-repair.
@@ -59,6 +75,7 @@ public:
   Refinement refinement;  // if edges were flipped
   Repair_figures repair;
   double placing_seconds = 0; // of --cones auto
+  std::vector<Mapped_component> components; // if there are several, and each was mapped by itself
 
   explicit Results(Mesh& mesh) : given(mesh), made(made_mesh_) {}
   Results(const Results&) = delete;

@@ -30,6 +30,12 @@ struct Seam_path
   std::array<std::int64_t, 2> translation = {{0, 0}};
 };
 
+// A map for the coordinates (a, b) of the lattice, which are written then.
+UV_map add_lattice_coordinates(Mesh& mesh);
+
+// Cartesian coordinates, which are drawn, for those of the lattice.
+void draw_lattice_coordinates(int symmetry, Result& result);
+
 std::vector<Seam_path> seam_paths(const Mesh& mesh, const UV_map& uv, const Report& report);
 
 } // namespace flattening

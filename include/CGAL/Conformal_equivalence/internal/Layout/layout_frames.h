@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -254,26 +255,24 @@ struct Rows
   }
 };
 
-// Puts the pieces beside one another. Pieces of similar size form a block of rows; the blocks follow one another from the
-// smallest, at the origin, to the largest: so no piece comes to lie farther out than some multiple of its own size,
-// and rounding there does not spoil it.
-template <typename Wide>
-void arrange_pieces(const std::vector<Piece>& pieces, std::vector<Complex_number<Wide> >& position)
+// Where rectangles come to lie beside one another: the lower left corner of each. Those of similar size form a block of rows; the blocks follow one
+// another from the smallest, at the origin, to the largest: so none comes to lie farther out than some multiple of its own size, and rounding
+// there does not spoil what it holds.
+inline std::vector<Double_point> places_beside_one_another(const std::vector<Bounding_box>& boxes)
 {
-  std::vector<Bounding_box> boxes(pieces.size());
-  std::vector<int> magnitude(pieces.size()); // those of one magnitude form a block
-  for(std::size_t i = 0; i < pieces.size(); ++i)
+  std::vector<int> magnitude(boxes.size()); // those of one magnitude form a block
+  for(std::size_t i = 0; i < boxes.size(); ++i)
   {
-    insert(pieces[i], position, boxes[i]);
     int exponent = 0;
     if(boxes[i].size() > 0 && std::isfinite(boxes[i].size()))
       std::frexp(boxes[i].size(), &exponent);
     const int per_block = 4, positive = 4000; // sizes of a block differ by at most 2^4; the shift makes division round down
     magnitude[i] = (exponent + positive) / per_block;
   }
+  std::vector<Double_point> places(boxes.size());
   double width = 0, height = 0;
   const std::vector<std::uint32_t> order =
-    stable_order(pieces.size(), [&](std::uint32_t i, std::uint32_t j) { return magnitude[i] < magnitude[j]; });
+    stable_order(boxes.size(), [&](std::uint32_t i, std::uint32_t j) { return magnitude[i] < magnitude[j]; });
   for(std::size_t first = 0, last; first < order.size(); first = last)
   {
     std::vector<Bounding_box> its_boxes;
@@ -282,14 +281,23 @@ void arrange_pieces(const std::vector<Piece>& pieces, std::vector<Complex_number
     const Rows rows(its_boxes);
     const bool is_right = width <= height; // of the blocks before it, else above them
     for(std::size_t k = 0; k < last - first; ++k)
-    {
-      const std::uint32_t i = order[first + k];
-      const Double_point to{{rows.low[k][0] + (is_right ? width : 0), rows.low[k][1] + (is_right ? 0 : height)}};
-      apply_similarity(Complex_number<Wide>{Wide(1), Wide(0)}, boxes[i].low, to, pieces[i], position);
-    }
+      places[order[first + k]] = {{rows.low[k][0] + (is_right ? width : 0), rows.low[k][1] + (is_right ? 0 : height)}};
     (is_right ? width : height) += is_right ? rows.width : rows.height;
     (is_right ? height : width) = (std::max)(is_right ? height : width, is_right ? rows.height : rows.width);
   }
+  return places;
+}
+
+// Puts the pieces beside one another.
+template <typename Wide>
+void arrange_pieces(const std::vector<Piece>& pieces, std::vector<Complex_number<Wide> >& position)
+{
+  std::vector<Bounding_box> boxes(pieces.size());
+  for(std::size_t i = 0; i < pieces.size(); ++i)
+    insert(pieces[i], position, boxes[i]);
+  const std::vector<Double_point> places = places_beside_one_another(boxes);
+  for(std::size_t i = 0; i < pieces.size(); ++i)
+    apply_similarity(Complex_number<Wide>{Wide(1), Wide(0)}, boxes[i].low, places[i], pieces[i], position);
 }
 
 // Brings the layout into the frame; returns the factor by which lengths were scaled.

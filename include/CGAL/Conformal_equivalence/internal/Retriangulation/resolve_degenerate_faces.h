@@ -13,6 +13,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_RESOLVE_DEGENERATE_FACES_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
@@ -91,6 +92,16 @@ std::vector<std::uint32_t> resolve_degenerate_faces(Intrinsic_triangulation<NT>&
     suspects.push_back(g / 3);
   }
   return flips;
+}
+
+// Tells a result, found on the triangulation that these flips have led to, that they came before all others.
+template <typename Result>
+void put_resolving_flips_first(const std::vector<std::uint32_t>& flips, Result& result)
+{
+  result.flips.insert(result.flips.begin(), flips.begin(), flips.end());
+  result.statistics.number_of_flips = result.flips.size();
+  result.statistics.number_of_resolving_flips = flips.size();
+  result.statistics.conformal_class = Conformal_class::GIVEN_TRIANGULATION;
 }
 
 // Takes those out of `faces` that have no area, and returns them.

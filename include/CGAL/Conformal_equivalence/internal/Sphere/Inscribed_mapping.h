@@ -66,14 +66,17 @@ public:
   Polyhedron operator()(Index apex, const Accept& accept) const;
 
 private:
-  Polyhedron find(Index apex, const Accept& accept) const
+  // Whether the whole has faces of no area that are to be resolved.
+  bool has_faces_to_resolve() const { return options_.retriangulation == Retriangulation::WHEN_NEEDED && !degenerate_faces(whole_).empty(); }
+
+  // A whole with `has_degenerate_faces` is solved with flips only, which resolve them first.
+  Polyhedron find(Index apex, bool has_degenerate_faces, const Accept& accept) const
   {
     const Retriangulation retriangulation = options_.retriangulation;
     const Stopwatch stopwatch;
     Polyhedron result;
     double discarded = 0;
     std::size_t discarded_iterations = 0;
-    const bool has_degenerate_faces = retriangulation == Retriangulation::WHEN_NEEDED && !degenerate_faces(whole_).empty();
     if(retriangulation != Retriangulation::ALWAYS && !has_degenerate_faces)
     {
       result = on_fixed_triangulation(apex, retriangulation == Retriangulation::NEVER, accept);
@@ -194,15 +197,14 @@ private:
 template <typename NT>
 Ideal_polyhedron<NT> Inscribed_mapping<NT>::operator()(Index apex, const Accept& accept) const
 {
-  if(!is_closed() || options_.retriangulation != Retriangulation::WHEN_NEEDED || degenerate_faces(whole_).empty())
-    return find(apex, accept);
+  const bool has_degenerate_faces = has_faces_to_resolve();
+  if(!is_closed() || !has_degenerate_faces)
+    return find(apex, has_degenerate_faces, accept);
   Triangulation resolved = whole_;
   const std::vector<Index> flips = resolve_degenerate_faces(resolved);
-  Polyhedron result = Inscribed_mapping(resolved, resolved, options_, make_factorization_).find(apex, accept);
-  result.flips.insert(result.flips.begin(), flips.begin(), flips.end());
-  result.statistics.number_of_flips = result.flips.size();
-  result.statistics.number_of_resolving_flips = flips.size();
-  result.statistics.conformal_class = Conformal_class::GIVEN_TRIANGULATION;
+  const Inscribed_mapping mapping(resolved, resolved, options_, make_factorization_);
+  Polyhedron result = mapping.find(apex, mapping.has_faces_to_resolve(), accept);
+  put_resolving_flips_first(flips, result);
   return result;
 }
 
