@@ -16,8 +16,6 @@
 #include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

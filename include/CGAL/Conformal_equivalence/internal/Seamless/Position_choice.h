@@ -15,7 +15,6 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_POSITION_CHOICE_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_POSITION_CHOICE_H
 
-#include <CGAL/Conformal_equivalence/internal/Seamless/Least_squares.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/position_lattice.h>
@@ -23,7 +22,7 @@
 
 #include <CGAL/number_utils.h>
 
-#include <Eigen/Core>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +57,7 @@ public:
   Position_choice(const Position_lattice& positions, const Texture_lattice& lattice, const Coefficients& flat_positions, Energy energy)
     : lattice_of_positions_(positions), lattice_(lattice), flat_positions_(flat_positions),
       basis_(plane_basis(positions, lattice, flat_positions.size())),
-      flat_coefficients_(Least_squares(basis_).solve(flat_positions)), energy_(energy(basis_)), reduced_(gram())
+      flat_coefficients_(solve_least_squares(basis_, flat_positions)), energy_(energy(basis_)), reduced_(gram())
   {}
 
   bool is_valid() const { return reduced_.is_valid(); }
@@ -168,6 +167,32 @@ private:
     for(Eigen::Index j = 0; j < a.cols(); ++j)
       for(Eigen::Index i = 0; i < a.rows(); ++i)
         result(j) += a(i, j) * std::conj(x(i));
+    return result;
+  }
+
+  // The x for which a x is closest to b.
+  static Coefficients solve_least_squares(const Eigen::MatrixXcd& a, const Coefficients& b)
+  {
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> qr(a);
+    const Eigen::Index rank = qr.nonzeroPivots(), n = b.size();
+    Coefficients c = b; // becomes Q* b
+    for(Eigen::Index k = 0; k < rank; ++k)
+    {
+      const Complex tau = qr.hCoeffs()(k);
+      if(k == n - 1)
+        c(k) *= 1. - tau;
+      else if(tau != 0.)
+      {
+        const auto reflector = qr.matrixQR().col(k).tail(n - k - 1);
+        const Complex product = reflector.dot(c.tail(n - k - 1)) + c(k);
+        c(k) -= tau * product;
+        c.tail(n - k - 1) -= product * (tau * reflector);
+      }
+    }
+    qr.matrixQR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(c.head(rank));
+    Coefficients result = Coefficients::Zero(a.cols());
+    for(Eigen::Index k = 0; k < rank; ++k)
+      result(qr.colsPermutation().indices()(k)) = c(k);
     return result;
   }
 
