@@ -6,10 +6,9 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_EXCURSION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_EXCURSION_H
 
-#include <CGAL/Conformal_equivalence/internal/Cones/Dense_system.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -68,15 +67,12 @@ public:
       }
     const Eigen::Index n = Eigen::Index(others.size());
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n + (has_constant_ ? 1 : 0), n + (has_constant_ ? 1 : 0));
-    for(Eigen::Index i = 0; i < n; ++i)
-    {
-      const Eigen::VectorXd z_i = z(others[std::size_t(i)]);
-      for(Eigen::Index j = 0; j < k.cols(); ++j)
-        k(i, j) = z_i[j];
-      if(has_constant_)
-        k(n, i) = 1;
-    }
-    inverse_ = Dense_system(std::move(k)).inverse();
+    for(Eigen::Index j = 0; j < n; ++j)
+      k.row(j) = z(others[std::size_t(j)]).transpose();
+    if(has_constant_)
+      k.row(n).head(n).setOnes();
+    if(k.size() > 0)
+      inverse_ = k.fullPivLu().inverse();
     set_own();
   }
 
@@ -136,14 +132,7 @@ private:
     return result;
   }
 
-  Eigen::VectorXd projected(const Eigen::VectorXd& z) const // (Eigen's product takes a program longer to compile)
-  {
-    Eigen::VectorXd result = Eigen::VectorXd::Zero(z.size());
-    for(Eigen::Index j = 0; j < z.size(); ++j)
-      for(Eigen::Index i = 0; i < z.size(); ++i)
-        result[i] += inverse_(i, j) * z[j];
-    return result;
-  }
+  Eigen::VectorXd projected(const Eigen::VectorXd& z) const { return z.size() > 0 ? Eigen::VectorXd(inverse_ * z) : z; }
 
   Row row(Index w, const Response& g) const
   {
