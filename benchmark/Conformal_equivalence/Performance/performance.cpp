@@ -84,6 +84,8 @@ void print_statistics(const Result& result)
   const CE::Statistics& s = result.statistics;
   print("import_seconds", result.stage_seconds[CE::Stage::IMPORT]);
   print("solve_seconds", result.stage_seconds[CE::Stage::SOLVE]);
+  print("discarded_seconds", s.seconds.discarded);
+  print("edges_flipped", s.number_of_flips);
   print("layout_seconds", result.stage_seconds[CE::Stage::LAYOUT]);
   print("verify_seconds", result.stage_seconds[CE::Stage::VERIFY]);
   print("newton_steps", s.number_of_iterations);
