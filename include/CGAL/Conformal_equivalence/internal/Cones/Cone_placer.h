@@ -73,6 +73,7 @@ public:
 private:
   static constexpr std::size_t most_cones_for_bound = 256; // as the documentation of place_cones() says
   static constexpr long most_quanta_of_turn = 2520;        // multiples of 2 pi / 2520 are told apart with ease; beyond, nobody means a multiple
+  static constexpr int most_additions = 30;                // each costs a solve; the search is seldom wrong by more than a few cones
   static constexpr int steps_of_last_relaxation = 6;         // the steps converge linearly, and fast: more of them change hardly anything
   static constexpr double usable_error = 1e-2;             // radians: Newton's method with the factor of u = 0 is on its way to a metric
   static constexpr double error_worth_starting_at = 0.1;   // radians: up to here u is a better place to begin than 0
@@ -245,6 +246,47 @@ private:
       return true;
     return has_bound() && (!(options_.maximum_u > 0) || largest_entry(p.u) <= options_.maximum_u)
                        && (!(options_.maximum_area_distortion > 0) || area_distortion_of_faces(t_, p.u) <= options_.maximum_area_distortion);
+  }
+
+  Placement placed(Search& search)
+  {
+    Placement p = search.without_cones(Vertex_vector(t_.number_of_vertices(), 0.));
+    if(!search.relax(p, 20) || p.error > usable_error)
+      p = search.without_cones(first_u());
+    place_greedily(search, p);
+    return moved(search, optimized(search, std::move(p)));
+  }
+
+  // The exact metric misses a bound that the search had met: one more cone, where |u| is largest in the metric. Returns whether there is one.
+  bool put_another(Search& search, Placement& p)
+  {
+    for(std::size_t v = 0; v < p.u.size(); ++v)
+      p.u[v] = static_cast<double>(result_.metric.log_scale_factors[v]);
+    if(!search.put_cone(p))
+      return false;
+    search.relax(p, steps_of_last_relaxation);
+    return true;
+  }
+
+  bool is_bound_missed() const
+  {
+    return options_.number_of_cones == 0 && is_success(result_.metric.status) && result_.status == Status::OK
+        && ((options_.maximum_u > 0 && !(result_.maximum_log_scale_factor <= options_.maximum_u))
+            || (options_.maximum_area_distortion > 0 && !(result_.area_distortion <= options_.maximum_area_distortion)));
+  }
+
+  // Takes the cones of `p` for the result, and finds its metric.
+  void conclude(Search& search, Placement p)
+  {
+    std::sort(p.cones.begin(), p.cones.end());
+    result_.cones = p.cones;
+    result_.angles.clear();
+    result_.free_angles.clear();
+    result_.flattened.clear();
+    if(options_.angle_quantum > 0)
+      quantize(search, std::move(p));
+    else
+      keep_free(p);
   }
 
   // A cone where |u| is largest, again and again.
@@ -434,18 +476,10 @@ Cone_placement<NT> Cone_placer<NT>::run()
     refuse(Status::SINGULAR_PROBLEM);
     return std::move(result_);
   }
-  Placement p = search.without_cones(Vertex_vector(t_.number_of_vertices(), 0.));
-  if(!search.relax(p, 20) || p.error > usable_error)
-    p = search.without_cones(first_u());
-  place_greedily(search, p);
-  p = optimized(search, std::move(p));
-  p = moved(search, p);
-  std::sort(p.cones.begin(), p.cones.end());
-  result_.cones = p.cones;
-  if(options_.angle_quantum > 0)
-    quantize(search, std::move(p));
-  else
-    keep_free(p);
+  Placement p = placed(search);
+  conclude(search, p);
+  for(int round = 0; round < most_additions && is_bound_missed() && p.cones.size() < most_cones_for_bound && put_another(search, p); ++round)
+    conclude(search, p);
   result_.number_of_solves = search.number_of_solves();
   finish();
   return std::move(result_);

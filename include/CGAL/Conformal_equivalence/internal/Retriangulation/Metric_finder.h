@@ -400,7 +400,7 @@ private:
       Newton_method newton(energy, linear_, target, newton_options(options, energy, may_give_up), result.statistics, options.visitor, bounds);
       result.status = newton(u);
       has_given_up_ = newton.has_given_up();
-      if(has_given_up_)
+      if(newton.has_come_near())
         foreseen_ = u;
     }
     if(result.status == Status::OK)
@@ -508,8 +508,8 @@ private:
   Laplacian_solver linear_;
   std::unique_ptr<Fixed_energy<NT> > fixed_energy_;
   Vertex_vector last_u_;
-  Vertex_vector foreseen_; // where the last attempt was given up, if any was
-  bool has_given_up_ = false;
+  Vertex_vector foreseen_; // where an attempt was given up on the way to its end, if any was
+  bool has_given_up_ = false; // the last attempt, as triangles would have remained broken
   bool linear_has_flips_ = false; // the edges of `linear_` are not those of `triangulation_`
 };
 

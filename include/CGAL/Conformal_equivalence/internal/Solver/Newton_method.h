@@ -93,8 +93,11 @@ public:
     }
   }
 
-  // Was the end foreseen, and is u on a straight way to it? Then other ways can go on from there.
+  // Was the end foreseen? It is that triangles remain broken.
   bool has_given_up() const { return has_given_up_; }
+
+  // Was it foreseen, and is u on the way to it, not astray? Then another way can go on from there.
+  bool has_come_near() const { return has_given_up_ && statistics_.residual < 0.5 * statistics_.residuals.front(); }
 
 private:
   // (where bounds are active, residuals may grow on the way)
