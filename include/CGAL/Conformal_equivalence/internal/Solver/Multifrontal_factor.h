@@ -48,6 +48,7 @@ private:
   typedef Dense_front<Number> Front;
 
   bool scale(const Lower_half& a);
+  void assemble(std::size_t s, Number* panel, Number* update, Number*& children_end);
   void add_update(const Supernode& child, const Number* from, const Supernode& node, Number* panel, Number* update) const;
   void forward();
   void backward();
@@ -106,21 +107,29 @@ bool Multifrontal_factor<Number>::factorize(const Lower_half& a)
   {
     const Supernode& node = symbolic.supernodes[s];
     Number *const panel = values_.data() + node.panel, *const update = top[node.depth % 2];
-    Number*& children_end = top[1 - node.depth % 2];
-    std::fill_n(panel, node.panel_size(), Number(0));
-    std::fill_n(update, node.update_size(), Number(0));
-    for(std::size_t k = symbolic.first_entry[s]; k < symbolic.first_entry[s + 1]; ++k)
-      values_[symbolic.entries[k].place] = entries_[symbolic.entries[k].source];
-    for(int child = node.first_child; child != Symbolic_factor::none; child = symbolic.supernodes[child].next_sibling)
-    {
-      children_end -= symbolic.supernodes[child].update_size();
-      add_update(symbolic.supernodes[child], children_end, node, panel, update);
-    }
+    assemble(s, panel, update, top[1 - node.depth % 2]);
     if(!Front::eliminate(panel, update, node.number_of_columns, node.number_of_rows, least_pivot_))
       return false;
     top[node.depth % 2] += node.update_size();
   }
   return least_pivot_ > std::numeric_limits<Number>::epsilon(); // smaller ones have not a single digit
+}
+
+// Makes the front of a supernode of its entries and of the updates of its children, which it takes from their stack.
+template <typename Number>
+void Multifrontal_factor<Number>::assemble(std::size_t s, Number* panel, Number* update, Number*& children_end)
+{
+  const Symbolic_factor& symbolic = *symbolic_;
+  const Supernode& node = symbolic.supernodes[s];
+  std::fill_n(panel, node.panel_size(), Number(0));
+  std::fill_n(update, node.update_size(), Number(0));
+  for(std::size_t k = symbolic.first_entry[s]; k < symbolic.first_entry[s + 1]; ++k)
+    values_[symbolic.entries[k].place] = entries_[symbolic.entries[k].source];
+  for(int child = node.first_child; child != Symbolic_factor::none; child = symbolic.supernodes[child].next_sibling)
+  {
+    children_end -= symbolic.supernodes[child].update_size();
+    add_update(symbolic.supernodes[child], children_end, node, panel, update);
+  }
 }
 
 // Adds the update of a child to the front of its parent.
@@ -131,10 +140,10 @@ void Multifrontal_factor<Number>::add_update(const Supernode& child, const Numbe
   const int n = child.number_of_rows, size = node.front_size(), columns = node.number_of_columns, rows = node.number_of_rows;
   for(int j = 0; j < n; ++j, from += n)
   {
-    Number* const to = place[j] < columns ? panel + std::ptrdiff_t(place[j]) * size
-                                          : update + std::ptrdiff_t(place[j] - columns) * rows - columns;
+    const int first_row = place[j] < columns ? 0 : columns;
+    Number* const to = place[j] < columns ? panel + std::ptrdiff_t(place[j]) * size : update + std::ptrdiff_t(place[j] - columns) * rows;
     for(int i = j; i < n; ++i)
-      to[place[i]] += from[i];
+      to[place[i] - first_row] += from[i];
   }
 }
 
