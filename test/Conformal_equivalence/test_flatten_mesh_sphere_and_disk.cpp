@@ -633,6 +633,18 @@ BOOST_AUTO_TEST_CASE(several_refined_disks)
   }
 }
 
+// A polygon may be divided between vertices that have an edge already, which is then there twice.
+BOOST_AUTO_TEST_CASE(disks_with_double_edges)
+{
+  const Folder folder;
+  const std::string points = "0 0 .6\n0 .2 .1\n0 .9 .1\n0 -.8 .2\n", faces = "4 0 1 2 3\n3 0 3 1\n", others = "4 4 5 6 7\n3 4 7 5\n";
+  const std::string one = folder.write("one.off", off(points, faces)), two = folder.write("two.off", off(points + points, faces + others));
+  BOOST_TEST(run({one, "-o", folder / "o.obj", "--target", "disk"}).status == 0);
+  const Run r = run({two, "-o", folder / "o.obj", "--target", "disk"});
+  BOOST_TEST(r.status == 0);
+  BOOST_TEST(contains(r.out, "side by side            2 disks\n"));
+}
+
 BOOST_AUTO_TEST_CASE(a_thousand_disks)
 {
   const Folder folder;

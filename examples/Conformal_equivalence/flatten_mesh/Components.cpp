@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "../include/flatten_mesh/Components.h"
-#include "../include/flatten_mesh/Polygon_soup.h"
 
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -55,40 +53,50 @@ void Components::get_mesh(std::size_t component, Component_mesh& result) const
                          vertices_.elements.begin() + std::ptrdiff_t(vertices_.first[component + 1]));
   result.faces.assign(faces_.elements.begin() + std::ptrdiff_t(faces_.first[component]),
                       faces_.elements.begin() + std::ptrdiff_t(faces_.first[component + 1]));
-  Polygon_soup soup;
+  Mesh& mesh = result.mesh;
   for(Vertex v : result.vertices)
   {
-    number_in_component_[v.idx()] = static_cast<std::uint32_t>(soup.points.size());
-    soup.points.push_back({{ mesh_.point(v).x(), mesh_.point(v).y(), mesh_.point(v).z() }});
+    number_in_component_[v.idx()] = static_cast<std::uint32_t>(mesh.number_of_vertices());
+    mesh.add_vertex(mesh_.point(v));
   }
-  for(Face f : result.faces)
-  {
-    soup.faces.emplace_back();
-    for(Vertex v : vertices_of_face(mesh_, f))
-      soup.faces.back().push_back(number_in_component_[v.idx()]);
-  }
-  soup.number_of_edges = found_.components[component].number_of_edges;
-  build_mesh(soup, result.mesh);
   align_halfedges(result);
 }
 
+// Edges are copied, and not made anew for the faces: polygons may have been divided by diagonals between vertices that have an edge already.
 void Components::align_halfedges(Component_mesh& result) const
 {
   Mesh& mesh = result.mesh;
-  result.halfedges.resize(mesh.number_of_halfedges());
-  const auto vertex = [&](Halfedge h) { return result.vertices[mesh.target(h).idx()]; };
-  for(Face f : mesh.faces())
+  std::vector<Mesh::Edge_index> edges;
+  for(Face f : result.faces)
+    for(Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f)))
+      edges.push_back(mesh_.edge(h));
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const auto vertex = [&](Vertex v) { return Vertex(number_in_component_[v.idx()]); };
+  for(Mesh::Edge_index e : edges)
   {
-    Halfedge of_whole = mesh_.halfedge(result.faces[f.idx()]), h = mesh.halfedge(f);
-    while(vertex(h) != mesh_.target(of_whole))
-      h = mesh.next(h);
-    mesh.set_halfedge(f, h);
-    for(int k = 0; k < 3; ++k, h = mesh.next(h), of_whole = mesh_.next(of_whole))
-    {
-      result.halfedges[h.idx()] = of_whole;
-      result.halfedges[mesh.opposite(h).idx()] = mesh_.opposite(of_whole);
-    }
+    const Halfedge h = mesh_.halfedge(e);
+    mesh.add_edge(vertex(mesh_.source(h)), vertex(mesh_.target(h)));
+    result.halfedges.push_back(h);
+    result.halfedges.push_back(mesh_.opposite(h));
   }
+  const auto halfedge = [&](Halfedge h)
+  {
+    const auto place = std::lower_bound(edges.begin(), edges.end(), mesh_.edge(h));
+    const Halfedge first = mesh.halfedge(Mesh::Edge_index(static_cast<Mesh::size_type>(place - edges.begin())));
+    return h == mesh_.halfedge(*place) ? first : mesh.opposite(first);
+  };
+  for(Halfedge h : mesh.halfedges())
+    mesh.set_next(h, halfedge(mesh_.next(result.halfedges[h.idx()])));
+  for(Face f : result.faces)
+  {
+    const Face g = mesh.add_face();
+    mesh.set_halfedge(g, halfedge(mesh_.halfedge(f)));
+    for(Halfedge h : mesh.halfedges_around_face(mesh.halfedge(g)))
+      mesh.set_face(h, g);
+  }
+  for(Vertex v : mesh.vertices())
+    mesh.set_halfedge(v, halfedge(mesh_.halfedge(result.vertices[v.idx()])));
 }
 
 } // namespace flattening
