@@ -185,6 +185,9 @@ inline Cones read_cones(std::istream& in)
   return cones;
 }
 
+// What is allowed apart from the rounding of coordinates, relatively or in radians. The solver stops where angle sums are right up to 10^-12. Two
+// ways to an edge that have n vertices between them end up n 10^-12 apart, then: room is left for 10^4 vertices, and, for the lengths of single
+// edges, those of the border and those seen from two sides, for 10^3 and 10^2.
 struct Tolerances
 {
   Real cross_ratio = 1e-8, two_sides = 1e-10, border_scale = 1e-9, weights = 1e-8, angle = 1e-8;

@@ -42,7 +42,10 @@ namespace checking {
 
 struct Image_tolerances
 {
-  Real sphere = 2e-16, circle = 4e-16, barycentre = 1e-12, cross_ratio = 1e-8;
+  Real sphere = 2e-16;      // coordinates x of unit length that were rounded once: the sum of x^2 2^-53, which is 1.1e-16
+  Real circle = 4e-16;      // the same after a few roundings more, as circles are made by divisions
+  Real barycentre = 1e-12;  // what the search for the transformation is content with
+  Real cross_ratio = 1e-8;  // as for layouts (check_flattening.h)
   bool edges_were_flipped = false;  // cross ratios are not compared
   std::size_t lost_triangles = 0;   // exactly so many are not positive
 };
@@ -104,7 +107,7 @@ public:
       verdict_.not_positive_triangles += ! (is_finite(f) && is_positive(p, q, r));
       sum += solid_angle(f);
     }
-    verdict_.turn.insert(std::abs(sum - 4 * pi), 1e-6L);
+    verdict_.turn.insert(std::abs(sum - 4 * pi), turn_tolerance_);
     check_points();
     if(! verdict_.is_refined && ! tolerances_.edges_were_flipped)
       check_cross_ratios();
@@ -267,8 +270,11 @@ private:
     }
     // a chord of more than a half turn counts as what it turns the other way: then the origin is outside of the polygon, and the sum is 0
     const bool has_long_chord = std::abs(turn) < 1;
-    verdict_.turn.insert(has_long_chord ? std::abs(turn) : std::abs(turn - 2 * pi), 1e-6L);
+    verdict_.turn.insert(has_long_chord ? std::abs(turn) : std::abs(turn - 2 * pi), turn_tolerance_);
   }
+
+  // Turns are multiples of 2 pi or 4 pi, and have only to be told apart: of a million angles that are rounded by 2^-53 pi this leaves far more.
+  static constexpr Real turn_tolerance_ = 1e-6L;
 
   const Surface& input_;
   const Surface& output_;
