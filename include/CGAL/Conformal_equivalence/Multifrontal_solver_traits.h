@@ -28,7 +28,7 @@ namespace Conformal_equivalence {
 /// and factorized in single precision, which takes half of the memory and of the time. That factor is what `precondition()`
 /// works with. Where single precision is not enough to tell that the matrix is positive definite, it is factorized in
 /// double. So it is when `linear_solver()` is called, the results of which are as accurate as those of any factorization in
-/// double; and from then on.
+/// double; and from then on. The last bits of results depend on whether the processor has AVX2.
 ///
 /// \cgalModels{SparseLinearAlgebraWithPatternTraits_d}
 class Multifrontal_solver_traits
