@@ -97,10 +97,14 @@ private:
   void take_pivot()
   {
     Index r = rank_, c = rank_;
+    double largest = 0;
     for(Index j = rank_; j < n_; ++j)
       for(Index i = rank_; i < n_; ++i)
-        if(!(std::abs(lu_(i, j)) <= std::abs(lu_(r, c))))
-          r = i, c = j;
+      {
+        const double x = std::abs(lu_(i, j));
+        if(x > largest || std::isnan(x))
+          r = i, c = j, largest = x;
+      }
     for(Index j = 0; j < n_; ++j)
       std::swap(lu_(rank_, j), lu_(r, j));
     for(Index i = 0; i < n_; ++i)
