@@ -154,10 +154,7 @@ private:
     exchange_triangulation(resolved);
     if(!result.is_retriangulated())
       result.triangulation = std::move(resolved);
-    result.flips.insert(result.flips.begin(), flips.begin(), flips.end());
-    result.statistics.number_of_flips = result.flips.size();
-    result.statistics.number_of_resolving_flips = flips.size();
-    result.statistics.conformal_class = Conformal_class::GIVEN_TRIANGULATION;
+    put_resolving_flips_first(flips, result);
     return is_final;
   }
 
