@@ -2,24 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Closest lattice vectors: reduced bases, exact transformations, and all that is near, against brute force and lattices
-// that are known; and the least squares of positions.
+// that are known.
 
 #define BOOST_TEST_MODULE test_closest_vector
 #include "include/boost_test.h"
 #include "include/tolerances.h"
 
-#include <CGAL/Conformal_equivalence/internal/Seamless/Least_squares.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstdint>
 #include <limits>
 #include <random>
@@ -273,31 +270,6 @@ std::vector<double> brute_force(const Eigen::MatrixXd& gram, const Eigen::Vector
 bool is_close(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance * (std::max)(std::abs(a), std::abs(b)); }
 
 } // namespace
-
-// What is left is orthogonal to all columns, and where one depends on others the same is left without it.
-BOOST_AUTO_TEST_CASE(least_squares)
-{
-  std::mt19937 engine(5);
-  const auto number = [&] { return std::complex<double>(int(engine() % 19) - 9, int(engine() % 19) - 9); };
-  for(int rows = 1; rows <= 20; ++rows)
-    for(int columns = 1; columns <= rows; ++columns)
-    {
-      Eigen::MatrixXcd a(rows, columns + 1);
-      Eigen::VectorXcd b(rows);
-      for(int i = 0; i < rows; ++i)
-      {
-        b(i) = number();
-        for(int j = 0; j < columns; ++j)
-          a(i, j) = number() + (i == j ? 200. : 0.);
-        a(i, columns) = a(i, 0) * std::complex<double>(0, 2); // which is then taken instead of the first one
-      }
-      const Eigen::VectorXcd x = CE::internal::Least_squares(a).solve(b);
-      BOOST_TEST(std::abs(x(0)) == 0);
-      // each of the reflections rounds by some 10 rows 2^-53 (N. Higham, Accuracy and Stability of Numerical Algorithms, 19.3), and so do products
-      const double rounding = 10. * rows * (columns + 1) * testing::unit_roundoff, size = a.norm();
-      BOOST_TEST((a.adjoint() * (a * x - b)).norm() <= rounding * size * (size * x.norm() + b.norm()));
-    }
-}
 
 BOOST_AUTO_TEST_CASE(reduced_bases)
 {

@@ -8,12 +8,9 @@
 
 #include "include/flattened_meshes.h"
 #include "include/index_level.h"
-#include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/flatten.h>
 #include <CGAL/Conformal_equivalence/place_cones.h>
-
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
@@ -77,43 +74,6 @@ double least_error(const std::vector<double>& x, long sum)
 }
 
 } // namespace
-
-// A matrix and the right side that has given integers for its solution. Where it is singular, its last row is the sum of the first two.
-BOOST_AUTO_TEST_CASE(small_systems_are_solved)
-{
-  Random random(17);
-  for(int n = 1; n <= 20; ++n)
-    for(const bool is_singular : {false, true})
-    {
-      if(is_singular && n < 3)
-        continue;
-      Eigen::MatrixXd a(n, n), inverse;
-      Eigen::VectorXd x(n);
-      for(int i = 0; i < n; ++i)
-      {
-        x(i) = double(random.below(19)) - 9;
-        for(int j = 0; j < n; ++j)
-          if(is_singular && i == n - 1)
-            a(i, j) = a(0, j) + a(1, j);
-          else
-            a(i, j) = double(random.below(19)) - 9 + (i + j == n - 1 ? 200 : 0); // all others in a row are less
-      }
-      const CE::internal::Dense_system system(a);
-      // Gaussian elimination solves a system that differs by 3 n 2^-53 |L| |U|, of numbers up to 1 and, as complete pivoting lets them grow by
-      // less than 20 for these n, up to 20 * 218
-      const double rounding = 3 * n * unit_roundoff * n * 20 * 218;
-      const Eigen::VectorXd b = a * x, y = system.solve(b);
-      BOOST_TEST((a * y - b).lpNorm<Eigen::Infinity>() <= rounding * y.lpNorm<1>());
-      if(!is_singular)
-      {
-        inverse = system.inverse();
-        for(int j = 0; j < n; ++j)
-          BOOST_TEST((a * inverse.col(j) - Eigen::VectorXd::Unit(n, j)).lpNorm<Eigen::Infinity>() <= rounding * inverse.col(j).lpNorm<1>());
-      }
-      a(n / 2, 0) = std::numeric_limits<double>::quiet_NaN();
-      BOOST_TEST(!CE::internal::Dense_system(a).solve(b).allFinite());
-    }
-}
 
 // ---- Rounding of angles
 
