@@ -51,7 +51,10 @@ public:
     return *this;
   }
 
+  /// takes what was analyzed and factorized.
   Multifrontal_solver_traits(Multifrontal_solver_traits&&) = default;
+
+  /// takes what was analyzed and factorized.
   Multifrontal_solver_traits& operator=(Multifrontal_solver_traits&&) = default;
 
   /// orders the rows and analyzes the pattern of `A`. Returns `true`.
