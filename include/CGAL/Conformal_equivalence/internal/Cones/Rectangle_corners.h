@@ -189,11 +189,20 @@ private:
     return result;
   }
 
+  // By vertex of its triangulation, which may be that of the double: those of images come after those of the surface.
+  static Vertex_vector log_scale_factors(const Metric& metric)
+  {
+    Vertex_vector result;
+    for(const auto& s : metric.scale_factors)
+      result.push_back(logarithm_of_factor<double>(s));
+    return result;
+  }
+
   // pi - angle sum at the border of the natural map; of the surface itself if there is no such map
   std::vector<double> natural_turning()
   {
     const Metric metric = solver_.solve(Conformal_conditions<double>(t_), quickly());
-    const std::vector<double> sums = angle_sums(metric ? apply_log_scale_factors(metric.triangulation, metric.log_scale_factors) : t_);
+    const std::vector<double> sums = angle_sums(metric ? apply_log_scale_factors(metric.triangulation, log_scale_factors(metric)) : t_);
     std::vector<double> turning;
     for(Index v : border_)
       turning.push_back(CGAL_PI - sums[v] / (metric && metric.is_doubled ? 2 : 1));
@@ -224,10 +233,9 @@ private:
   {
     const Triangulation& t = metric.triangulation;
     Conformal_energy<double> energy(t, true);
-    energy.evaluate(metric.log_scale_factors);
+    energy.evaluate(log_scale_factors(metric));
     Laplacian_solver linear(make_factorization<Default_solver_traits>());
     Vertex_vector straight(metric.log_scale_factors);
-    straight.resize(t_.number_of_vertices());
     if(!factorize(t, energy.weights(), linear))
       return model(straight, std::vector<Vertex_vector>(candidates_.size(), Vertex_vector(straight.size(), 0.)));
     const std::vector<Vertex_vector> added = columns(linear, metric.is_doubled ? 2 : 1);
@@ -317,9 +325,7 @@ private:
   {
     if(!metric)
       return std::numeric_limits<double>::infinity();
-    Vertex_vector u(metric.log_scale_factors);
-    u.resize(t_.number_of_vertices()); // those of images come after those of the surface
-    return dirichlet_energy(t_, u);
+    return dirichlet_energy(t_, metric.log_scale_factors);
   }
 
   // The best of the choices that are solved for: the best one by the first model, and those that are named after that.
