@@ -362,6 +362,26 @@ BOOST_AUTO_TEST_CASE(no_corners)
   BOOST_TEST((report.status == Status::WRONG_TOPOLOGY));
 }
 
+// Where candidates are looked for on the double, too, and models are made there. No exchange with a neighbour on the border is better.
+BOOST_AUTO_TEST_CASE(corners_where_the_natural_map_needs_the_double, * needs_mesh("cylinder_locally_refined.off"))
+{
+  const Maps m(read_mesh("cylinder_locally_refined.off"));
+  const auto mesh = CE::import_mesh(m.sm);
+  BOOST_TEST_REQUIRE(CE::compute_conformal_metric(mesh.triangulation, CE::Conformal_conditions<double>(mesh.triangulation)).is_doubled);
+  Report report;
+  const Corners corners = select_corners(m.sm, report);
+  BOOST_TEST((report.status == Status::OK));
+  BOOST_TEST(std::set<Vertex>(corners.begin(), corners.end()).size() == 4u);
+  const double chosen = rectangle_energy(m, corners);
+  BOOST_TEST(std::isfinite(chosen));
+  const std::vector<Vertex> border = border_vertices(m.sm);
+  const auto place = std::find(border.begin(), border.end(), corners[0]);
+  BOOST_TEST_REQUIRE((place != border.end()));
+  Corners other = corners;
+  other[0] = place + 1 == border.end() ? border.front() : place[1];
+  BOOST_TEST(rectangle_energy(m, other) >= chosen);
+}
+
 BOOST_AUTO_TEST_CASE(no_exchange_of_a_corner_is_better)
 {
   const auto bump = [](double x, double y) { return .6 * std::exp(-5 * ((x - .3) * (x - .3) + y * y)); };
