@@ -111,15 +111,16 @@ all_headers_everywhere()
 # The tests that are worth most with sanitizers: those of what works on arrays of indices.
 sanitized_core=(test_{normal_coordinates,common_refinement,Surface_locator,retriangulation,flatten_retriangulated,flatten_any_topology,compute_cut_graph,repair_locally,map_to_sphere,map_to_disk,Surface_correspondence,place_cones,compute_seamless_parameterization,fuzz_flatten_mesh})
 
-# The compiler for sanitizers: clang++ where it has their libraries, as g++ takes half as long again with them and twice the memory.
-sanitizing_compiler()
+# The compilers for sanitizers, of C++ and of C: those of clang where it has their libraries, as g++ takes half as long again with them and
+# twice the memory. (Both, as CMake names precompiled headers in the way of the language that was enabled last.)
+sanitizing_compilers()
 {
   local program="$build/sanitizers"
   mkdir -p "$build"
   if clang++ -fsanitize=address,undefined -x c++ - -o "$program" <<< 'int main() {}' 2> /dev/null && "$program"; then
-    echo clang++
+    echo clang++ clang
   else
-    echo c++
+    echo c++ cc
   fi
 }
 
@@ -127,12 +128,12 @@ sanitizing_compiler()
 # undefined-behaviour sanitizers
 sanitized_tests()
 {
-  local tests="$1" only=() compiler name
+  local tests="$1" only=() compilers name
   shift
-  compiler="$(sanitizing_compiler)"
-  name="sanitized-$compiler"
+  read -ra compilers <<< "$(sanitizing_compilers)"
+  name="sanitized-${compilers[0]}"
   [ -z "$tests" ] || only=(-R "^($(echo "$tests" | tr ' ' '|'))\$")
-  configure "$name" sanitized "-DCMAKE_CXX_COMPILER=$compiler" "$@"
+  configure "$name" sanitized "-DCMAKE_CXX_COMPILER=${compilers[0]}" "-DCMAKE_C_COMPILER=${compilers[1]}" "$@"
   compile "$name" $tests
   CONFORMAL_EQUIVALENCE_SKIP_SLOW_TESTS=1 run_tests "$name" -L '^test$' ${only[@]+"${only[@]}"}
 }
