@@ -88,7 +88,10 @@ function(conformal_equivalence_test name folder)
     LABELS "${folder}"
     ENVIRONMENT "CGAL_DATA_DIR=${CGAL_DATA_DIR};UBSAN_OPTIONS=print_stacktrace=1"
     SKIP_RETURN_CODE 77
-    TIMEOUT 600)
+    TIMEOUT 1200) # some take minutes with sanitizers
+  if(name MATCHES "^test_(map_to_sphere|map_to_disk|flatten_retriangulated|common_refinement)$")
+    set_tests_properties(${name} PROPERTIES COST 100) # the longest first, so that none is left alone at the end
+  endif()
   if(folder STREQUAL "test") # its data/ is beside the sources
     set(working_directory "${PROJECT_SOURCE_DIR}/test/Conformal_equivalence")
   else() # examples may write files; they read CGAL's meshes, and data/ beside the sources
