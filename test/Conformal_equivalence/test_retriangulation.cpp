@@ -1305,7 +1305,6 @@ CE::Status minimize(Triangulation t, const std::vector<double>& target, Index fi
   CEi::Flipping_energy<double> energy(t, observer);
   CEi::Newton_options options;
   options.number_of_iterations = 100;
-  options.is_careful = true;
   CE::Statistics statistics;
   const CEi::Any_visitor visitor;
   CEi::Newton_method newton(energy, linear, target, options, statistics, visitor);

@@ -230,10 +230,17 @@ private:
     result_.amount = result_.metric.amount;
     if(!is_success(result_.status))
       return;
-    if(options_.maximum_u > 0 && !(result_.maximum_log_scale_factor <= options_.maximum_u))
+    if(misses_maximum_u())
       refuse(Status::BOUND_NOT_MET, result_.maximum_log_scale_factor);
-    else if(options_.maximum_area_distortion > 0 && !(result_.area_distortion <= options_.maximum_area_distortion))
+    else if(misses_maximum_area_distortion())
       refuse(Status::BOUND_NOT_MET, result_.area_distortion);
+  }
+
+  // Does the metric of the result?
+  bool misses_maximum_u() const { return options_.maximum_u > 0 && !(result_.maximum_log_scale_factor <= options_.maximum_u); }
+  bool misses_maximum_area_distortion() const
+  {
+    return options_.maximum_area_distortion > 0 && !(result_.area_distortion <= options_.maximum_area_distortion);
   }
 
   // ---- Placement
@@ -271,8 +278,7 @@ private:
   bool is_bound_missed() const
   {
     return options_.number_of_cones == 0 && is_success(result_.metric.status) && result_.status == Status::OK
-        && ((options_.maximum_u > 0 && !(result_.maximum_log_scale_factor <= options_.maximum_u))
-            || (options_.maximum_area_distortion > 0 && !(result_.area_distortion <= options_.maximum_area_distortion)));
+        && (misses_maximum_u() || misses_maximum_area_distortion());
   }
 
   // Takes the cones of `p` for the result, and finds its metric.

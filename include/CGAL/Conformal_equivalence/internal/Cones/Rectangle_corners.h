@@ -117,8 +117,10 @@ class Rectangle_corner_selection
 public:
   // `border` are the vertices of the border of the disk `t`, in order; `retriangulation` is that of the map for which the corners are
   Rectangle_corner_selection(const Triangulation& t, const std::vector<Index>& border, Retriangulation retriangulation)
-    : t_(t), border_(border), may_flip_(retriangulation != Retriangulation::NEVER), solver_(t)
-  {}
+    : t_(t), border_(border), may_flip_(retriangulation != Retriangulation::NEVER), energy_(t, true), solver_(t)
+  {
+    energy_.evaluate(Vertex_vector(t.number_of_vertices(), 0.));
+  }
 
   Rectangle_corners operator()()
   {
@@ -214,15 +216,13 @@ private:
   // For the u of first order, at u = 0.
   Corner_energy_model model_at_start() const
   {
-    Conformal_energy<double> energy(t_, true);
-    energy.evaluate(Vertex_vector(t_.number_of_vertices(), 0.));
     Laplacian_solver linear(make_factorization<Default_solver_traits>());
     Vertex_vector straight(t_.number_of_vertices(), 0.);
-    if(!factorize(t_, energy.weights(), linear))
+    if(!factorize(t_, energy_.weights(), linear))
       return model(straight, std::vector<Vertex_vector>(candidates_.size(), straight));
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
       if(linear.graph().is_free(v))
-        straight[v] = energy.angle_sums()[v] - (t_.is_border_vertex(v) ? CGAL_PI : 2 * CGAL_PI);
+        straight[v] = energy_.angle_sums()[v] - (t_.is_border_vertex(v) ? CGAL_PI : 2 * CGAL_PI);
     Vertex_vector u;
     linear.solve(straight, u);
     return model(u, columns(linear, 1));
@@ -248,9 +248,7 @@ private:
   // The energy is that of the surface as it is given.
   Corner_energy_model model(const Vertex_vector& straight, const std::vector<Vertex_vector>& added) const
   {
-    Conformal_energy<double> energy(t_, true);
-    energy.evaluate(Vertex_vector(t_.number_of_vertices(), 0.));
-    return Corner_energy_model(t_, energy.weights(), straight, added);
+    return Corner_energy_model(t_, energy_.weights(), straight, added);
   }
 
   // A, with one vertex held, as the energy does not see a constant.
@@ -387,6 +385,7 @@ private:
   const bool may_flip_;
   bool is_any_free_ = false; // although there are more vertices with a single triangle than corners
   std::vector<Index> candidates_;
+  Conformal_energy<double> energy_; // of the surface, at u = 0
   Conformal_metric_solver<double> solver_;
 };
 

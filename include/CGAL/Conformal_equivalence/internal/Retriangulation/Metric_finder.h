@@ -120,24 +120,21 @@ private:
     if(!is_final && may_be_helped_by_flips(result) && may_be_doubled(options))
     {
       discard(result, stopwatch.seconds());
-      if(!goes_on_from_foreseen([&] { solve_on_double(conditions, options, result); }, result))
-      {
-        discard(result, stopwatch.seconds());
-        solve_on_double(conditions, options, result);
-      }
+      go_on_from_foreseen([&] { solve_on_double(conditions, options, result); }, stopwatch, result);
     }
   }
 
-  // Tries a way that goes on where the last one was given up, if it was. Returns false if it is to be tried again from elsewhere: what was
-  // near to the end of one way may be a bad place for another.
+  // Tries a way that goes on where the last one was given up, if it was; if it comes to nothing, once more from elsewhere: what was near to
+  // the end of one way may be a bad place for another.
   template <typename Way>
-  bool goes_on_from_foreseen(const Way& way, const Metric& result)
+  void go_on_from_foreseen(const Way& way, const Stopwatch& stopwatch, Metric& result)
   {
     way();
     if(result.status != Status::ITERATIONS_EXHAUSTED || foreseen_.empty() || has_given_up_)
-      return true;
+      return;
     foreseen_.clear();
-    return false;
+    discard(result, stopwatch.seconds());
+    way();
   }
 
   // Where there are faces of no area, on the triangulation without these. Returns whether nothing else is to be tried.
@@ -178,11 +175,7 @@ private:
       linear_.forget_factor(); // that of an attempt that has gone astray
     const Metric refused = result.status == Status::ANGLE_OUT_OF_RANGE ? result : Metric();
     discard(result, stopwatch.seconds());
-    if(!goes_on_from_foreseen([&] { solve_flipping(conditions, options, result); }, result))
-    {
-      discard(result, stopwatch.seconds());
-      solve_flipping(conditions, options, result);
-    }
+    go_on_from_foreseen([&] { solve_flipping(conditions, options, result); }, stopwatch, result);
     const bool says_less = refused.status == Status::ANGLE_OUT_OF_RANGE && is_balance_violated(result.status);
     if(says_less)
       result = refused; // it may be the reason why the angles sum up to what cannot be
@@ -221,13 +214,12 @@ private:
   }
 
   // For one way of several: may it be given up, as there is another one?
-  static Newton_options newton_options(const Solver_options& options, const Abstract_energy& energy, bool may_give_up)
+  static Newton_options newton_options(const Solver_options& options, bool may_give_up)
   {
     Newton_options result;
     result.tolerance = options.gradient_tolerance;
     result.number_of_iterations = options.number_of_iterations;
     result.strategy = options.newton_strategy;
-    result.is_careful = energy.has_flips();
     result.may_give_up = may_give_up;
     return result;
   }
@@ -394,7 +386,7 @@ private:
     if(result.status == Status::OK)
     {
       const Vertex_vector target = targets(conditions);
-      Newton_method newton(energy, linear_, target, newton_options(options, energy, may_give_up), result.statistics, options.visitor, bounds);
+      Newton_method newton(energy, linear_, target, newton_options(options, may_give_up), result.statistics, options.visitor, bounds);
       result.status = newton(u);
       has_given_up_ = newton.has_given_up();
       if(newton.has_come_near())

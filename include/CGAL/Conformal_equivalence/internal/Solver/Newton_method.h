@@ -43,8 +43,7 @@ struct Newton_options
   double tolerance = 1e-12;
   std::size_t number_of_iterations = 100;
   Newton_strategy strategy = Newton_strategy::LINE_SEARCH;
-  bool is_careful = false;   // where edges are flipped on the way: steps are bounded
-  bool may_give_up = false;  // as soon as it is foreseen that triangles remain broken: there is another way
+  bool may_give_up = false; // as soon as it is foreseen that triangles remain broken: there is another way
 };
 
 class Newton_method
@@ -100,8 +99,8 @@ public:
   bool has_come_near() const { return has_given_up_ && statistics_.residual < 0.5 * statistics_.residuals.front(); }
 
 private:
-  // (where bounds are active, residuals may grow on the way)
-  bool is_careful() const { return options_.is_careful && active_set_.empty(); }
+  // Where edges are flipped on the way steps are bounded. (Where bounds are active, residuals may grow on the way.)
+  bool is_careful() const { return energy_.has_flips() && active_set_.empty(); }
 
   // Has the residual been the same for a while? Where triangles are not broken it is not, unless steps come to nothing by rounding.
   bool has_stopped() const
@@ -187,12 +186,13 @@ private:
     if(!model_.solve_by_kept_factor(residual_, eta, d))
     {
       const double as_solved_for_roughly = 10;
-      if((has_given_up_ = is_hopeless(d, as_solved_for_roughly)))
+      has_given_up_ = is_hopeless(d, as_solved_for_roughly);
+      if(has_given_up_)
         return true;
       if(!model_.solve_by_new_factor(residual_, eta, d))
         return false;
     }
-    return (dot(residual_, d) > 0 || (solver_.precondition(residual_, d) && dot(residual_, d) > 0));
+    return dot(residual_, d) > 0 || (solver_.precondition(residual_, d) && dot(residual_, d) > 0);
   }
 
   // Will a triangle that is broken now remain so? The step d that comes next tells about how far u still has to go. Where there is a minimum
@@ -253,11 +253,9 @@ private:
     const double longest_step = 10; // in u
     if(!newton_direction(u, d) || (!energy_.broken_faces().empty() && !(largest_entry(d) <= longest_step)))
       return begin_trust_region(u);
-    if(has_given_up_ || is_hopeless(d))
-    {
-      has_given_up_ = true;
+    has_given_up_ = has_given_up_ || is_hopeless(d);
+    if(has_given_up_)
       return false;
-    }
     const double slope = dot(residual_, d);
     Vertex_vector trial(u.size()), r;
     // far away, triangulations are flipped in vain
