@@ -122,10 +122,37 @@ private:
   std::vector<char> is_placed_;
 };
 
+// What a development has found, whether edges were flipped or not.
+template <typename NT>
+struct Developed_surface
+{
+  typedef typename Conformal_metric<NT>::Wide_number Wide;
+  typedef Complex_number<Wide> Complex;
+
+  std::vector<Complex> position; // by wedge of the input
+  std::vector<char> is_laid_out; // by face of the input
+  std::vector<NT> length;        // by edge of the input, of the straight line that it becomes
+};
+
+// Develops what is connected with `roots`, faces of the surface `t`. \pre `development` is one of `t`, at its beginning
+template <typename NT, typename Development>
+Developed_surface<NT> develop(const Intrinsic_triangulation<NT>& t, const std::vector<std::uint32_t>& roots, Development development)
+{
+  for(std::uint32_t root : roots)
+    development(root);
+  Developed_surface<NT> result;
+  result.length.reserve(t.number_of_edges());
+  for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
+    result.length.push_back(static_cast<NT>(development.length(t.edge_halfedge(e))));
+  result.position = std::move(development.position);
+  result.is_laid_out = std::move(development.is_laid_out);
+  return result;
+}
+
 // Rounds the positions and measures by how much lengths have changed, in the faces that are laid out.
-template <typename NT, typename Developed>
+template <typename NT>
 void round_positions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut, const Wedges& wedges,
-                     const Developed& development, const NT& scale, Layout<NT>& layout)
+                     const Developed_surface<NT>& development, const NT& scale, Layout<NT>& layout)
 {
   using std::abs;
   using std::sqrt;
@@ -147,7 +174,7 @@ void round_positions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut,
   for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
   {
     const std::uint32_t h = t.edge_halfedge(e), g = t.twin(h);
-    const NT length = static_cast<NT>(development.length(h)) * scale;
+    const NT length = development.length[e] * scale;
     if(development.is_laid_out[t.face(h)])
       measure(h, length);
     if(cut[e] && !t.is_border(h) && development.is_laid_out[t.face(g)])

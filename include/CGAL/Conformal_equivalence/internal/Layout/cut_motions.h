@@ -10,6 +10,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/Development.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/period_lattice.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
@@ -27,13 +28,13 @@ namespace Conformal_equivalence {
 namespace internal {
 
 // The motion across the cut edge of h.
-template <typename NT, typename Developed>
-Cut_motion<typename Developed::Wide>
+template <typename NT>
+Cut_motion<typename Developed_surface<NT>::Wide>
 find_motion(const Intrinsic_triangulation<NT>& t, const Wedges& wedges, const std::vector<std::uint32_t>& piece_of_face,
-            const Developed& development, std::uint32_t h)
+            const Developed_surface<NT>& development, std::uint32_t h)
 {
-  typedef typename Developed::Wide Wide;
-  typedef typename Developed::Complex Complex;
+  typedef typename Developed_surface<NT>::Wide Wide;
+  typedef typename Developed_surface<NT>::Complex Complex;
   using std::sqrt;
   const std::uint32_t g = t.twin(h);
   const auto corner = [&](std::uint32_t i) -> const Complex& { return development.position[wedges.of_corner[i]]; };
@@ -68,11 +69,11 @@ struct Pieces_of_components
 };
 
 // The motions across the cut edges between faces that are laid out, and the lattices of the flat tori.
-template <typename NT, typename Developed>
+template <typename NT>
 void find_transitions(const Intrinsic_triangulation<NT>& t, const Cut_graph& cut, const Wedges& wedges,
-                      const Developed& development, Layout<NT>& layout)
+                      const Developed_surface<NT>& development, Layout<NT>& layout)
 {
-  typedef Cut_motion<typename Developed::Wide> Motion;
+  typedef Cut_motion<typename Developed_surface<NT>::Wide> Motion;
   const auto rounded = [](const auto& z) { return std::array<NT, 2>{{static_cast<NT>(z.re), static_cast<NT>(z.im)}}; };
   std::uint32_t number_of_pieces = 0;
   const std::vector<std::uint32_t> piece_of_face = pieces_of_faces(t, cut, number_of_pieces);

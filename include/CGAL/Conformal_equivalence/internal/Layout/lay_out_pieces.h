@@ -33,34 +33,32 @@ namespace internal {
 // Which pieces are to be laid out.
 typedef std::function<bool(const Piece&)> Is_wanted;
 
-// Lays out the given pieces only.
-template <typename NT, typename Developed>
-Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Cut_graph& cut, const Wedges& wedges,
-                          const std::vector<Piece>& pieces, const Any_frame& frame, Developed development)
+// The given pieces, developed one by one.
+template <typename NT>
+Developed_surface<NT> develop_pieces(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
+                                     const Wedges& wedges, const std::vector<Piece>& pieces)
 {
-  Layout<NT> layout;
+  std::vector<std::uint32_t> roots;
   for(const Piece& piece : pieces)
-    development(piece.central_face);
-  const NT scale = move_to_frame(input, wedges.of_corner, pieces, frame, development.position);
-  round_positions(input, cut, wedges, development, scale, layout);
-  if(!cut.is_cut.empty())
-    find_transitions(input, cut, wedges, development, layout);
-  return layout;
+    roots.push_back(piece.central_face);
+  if(metric.is_retriangulated())
+    return develop(input, roots, Flipped_development<NT>(input, metric, cut, wedges));
+  return develop(input, roots, Development<NT>(metric, cut, wedges));
 }
 
+// Lays out the given pieces only.
 template <typename NT>
 Layout<NT> lay_out_pieces(const Intrinsic_triangulation<NT>& input, const Conformal_metric<NT>& metric, const Cut_graph& cut,
                           const Wedges& wedges, const std::vector<Piece>& pieces, const Any_frame& frame)
 {
-  if(!metric.is_retriangulated())
-    return lay_out_pieces(input, cut, wedges, pieces, frame, Development<NT>(metric, cut, wedges));
-  Flipped_development<NT> development(input, metric, cut, wedges);
-  std::vector<NT> lengths;
-  lengths.reserve(input.number_of_edges());
-  for(std::uint32_t e = 0; e < input.number_of_edges(); ++e)
-    lengths.push_back(static_cast<NT>(development.length(input.edge_halfedge(e))));
-  Layout<NT> layout = lay_out_pieces(input, cut, wedges, pieces, frame, std::move(development));
-  layout.straight_lengths = std::move(lengths);
+  Developed_surface<NT> development = develop_pieces(input, metric, cut, wedges, pieces);
+  Layout<NT> layout;
+  const NT scale = move_to_frame(input, wedges.of_corner, pieces, frame, development.position);
+  round_positions(input, cut, wedges, development, scale, layout);
+  if(!cut.is_cut.empty())
+    find_transitions(input, cut, wedges, development, layout);
+  if(metric.is_retriangulated())
+    layout.straight_lengths = std::move(development.length);
   return layout;
 }
 

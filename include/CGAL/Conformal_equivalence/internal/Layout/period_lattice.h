@@ -32,18 +32,28 @@ struct Cut_motion
   Complex rotation, translation;
   double length; // of the edge: the motion across a long edge is known best
 
-  Complex operator()(const Complex& z) const
-  {
-    return rotation * z + translation;
-  }
-  Cut_motion inverse() const
-  {
-    const Complex r = conj(rotation);
-    return {to_piece, from_piece, r, -(r * translation), length};
-  }
-  // first `b`, then this
-  Cut_motion after(const Cut_motion& b) const { return {b.from_piece, to_piece, rotation * b.rotation, (*this)(b.translation), length}; }
+  Complex operator()(const Complex& z) const;
+  Cut_motion inverse() const;
+  Cut_motion after(const Cut_motion& b) const; // first `b`, then this
 };
+
+// Outside of the class, as what is inside is asked to be inlined, and products of wide numbers are long.
+
+template <typename NT>
+Complex_number<NT> Cut_motion<NT>::operator()(const Complex& z) const { return rotation * z + translation; }
+
+template <typename NT>
+Cut_motion<NT> Cut_motion<NT>::inverse() const
+{
+  const Complex r = conj(rotation);
+  return {to_piece, from_piece, r, -(r * translation), length};
+}
+
+template <typename NT>
+Cut_motion<NT> Cut_motion<NT>::after(const Cut_motion& b) const
+{
+  return {b.from_piece, to_piece, rotation * b.rotation, (*this)(b.translation), length};
+}
 
 // Reductions end by themselves, as numbers become smaller; rounding must not make them go round in circles. A pair of `double` of any
 // size whatever is reduced in some hundred steps.

@@ -7,8 +7,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/internal/Layout/Development.h>
-#include <CGAL/Conformal_equivalence/internal/Layout/Flipped_development.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/lay_out_pieces.h>
 #include <CGAL/Conformal_equivalence/internal/Layout/layout_frames.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Geodesic_strip.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
@@ -51,16 +50,7 @@ public:
     std::vector<Piece> pieces = find_pieces(input, cut, wedges_);
     pieces.erase(std::remove_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.faces.front() >= size.faces; }),
                  pieces.end());
-    const auto develop = [&](auto development)
-    {
-      for(const Piece& piece : pieces)
-        development(piece.central_face);
-      position_ = std::move(development.position);
-    };
-    if(metric.is_retriangulated())
-      develop(Flipped_development<NT>(input, metric, cut, wedges_));
-    else
-      develop(Development<NT>(metric, cut, wedges_));
+    position_ = develop_pieces(input, metric, cut, wedges_, pieces).position;
     move_to_frame(input, wedges_.of_corner, pieces, frame, position_);
   }
 

@@ -51,12 +51,12 @@ Wide_factorization<Wide> factorize_wide_matrix(const Edge_graph& graph, const st
   return Wide_factorization<Wide>(Index(graph.number_of_free), lower, values);
 }
 
-// Multiplies `s` by e^{d / 2} for the step d. Returns whether the matrix could be factorized.
-template <typename Surface, typename Wide>
-bool add_wide_newton_step(const Surface& t, const Edge_graph& graph, const Scaled_vector& residual, std::vector<Wide>& s)
+// Multiplies `s` by e^{d / 2} for the step d, where the edges have the given weights. Returns whether the matrix could be factorized.
+template <typename Wide>
+bool add_wide_newton_step(const Edge_graph& graph, const std::vector<Wide>& weights, const Scaled_vector& residual, std::vector<Wide>& s)
 {
   using std::ldexp;
-  const Wide_factorization<Wide> factor = factorize_wide_matrix(graph, wide_weights<Wide>(t, s));
+  const Wide_factorization<Wide> factor = factorize_wide_matrix(graph, weights);
   if(!factor.is_regular())
     return false;
   std::vector<Wide> right(graph.number_of_free, Wide(0));
@@ -71,6 +71,13 @@ bool add_wide_newton_step(const Surface& t, const Edge_graph& graph, const Scale
       s[v] = s[v] + s[v] * (step / 2 + step * step / 8);
     }
   return true;
+}
+
+// The same, with the weights of the surface `t` for the factors `s`.
+template <typename Surface, typename Wide>
+bool add_wide_newton_step(const Surface& t, const Edge_graph& graph, const Scaled_vector& residual, std::vector<Wide>& s)
+{
+  return add_wide_newton_step(graph, wide_weights<Wide>(t, s), residual, s);
 }
 
 } // namespace internal
