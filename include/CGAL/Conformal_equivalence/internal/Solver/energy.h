@@ -16,13 +16,19 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ENERGY_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Incircle_vectors.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+
+#include <CGAL/number_type_config.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -42,7 +48,7 @@ public:
   // multiplied by a power of two that brings them near 1.
   explicit Conformal_energy(const Triangulation& t, bool normalize = false)
     : t_(t), scale_(t.number_of_vertices(), NT(1)),
-      angle_sum_(t.number_of_vertices()), weight_(t.number_of_edges()), sum_(t.number_of_vertices())
+      angle_sum_(t.number_of_vertices()), weight_(t.number_of_edges()), product_(sums_up_angles ? 0 : t.number_of_vertices())
   {
     exponent_ = normalize ? middle_exponent() : 0;
     length_.resize(t.number_of_edges());
@@ -66,11 +72,9 @@ public:
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
       scale_[v] = exp(u[v] / 2);
     clear();
-    bool is_finite = true;
-    for(Index f = 0; f < t_.number_of_faces(); ++f)
-      is_finite = add_triangle(3 * f) && is_finite;
-    for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      angle_sum_[v] = sum_[v].radians();
+    const bool is_finite = add_all_triangles();
+    for(std::size_t v = 0; v < product_.size(); ++v)
+      angle_sum_[v] = product_[v].radians();
     return is_finite;
   }
 
@@ -87,7 +91,7 @@ public:
     {
       const std::array<NT, 3> l = {{scaled_length(h), scaled_length(t_.next(h)), scaled_length(t_.previous(h))}};
       const Incircle_form<NT> triangle(l[0], l[1], l[2]);
-      if(triangle.is_triangle && triangle.r > 0)
+      if(!triangle.is_broken())
       {
         const NT unit = 1 / triangle.s;
         sum.add(triangle.tangent[1] * unit, triangle.r * unit);
@@ -109,7 +113,7 @@ public:
     for(Index h = 0; h < t_.number_of_halfedges(); h += 3)
     {
       const Incircle_form<NT> triangle(scaled_length(h), scaled_length(h + 1), scaled_length(h + 2));
-      if(!triangle.is_triangle || !(triangle.r > 0))
+      if(triangle.is_broken())
         continue;
       std::array<NT, 3> c;
       for(int k = 0; k < 3; ++k)
@@ -160,6 +164,9 @@ public:
   }
 
 protected:
+  // Arc tangents of `double` are cheap by vectors; of wider numbers, one for each vertex is enough.
+  static constexpr bool sums_up_angles = std::is_same<NT, double>::value;
+
   // Nothing but the factor: the next evaluation finds the rest.
   void set_scale(Index v, const NT& scale) { scale_[v] = scale; }
 
@@ -195,9 +202,70 @@ private:
 
   void clear()
   {
-    std::fill(sum_.begin(), sum_.end(), Angle_sum<NT>());
+    std::fill(product_.begin(), product_.end(), Angle_sum<NT>());
+    std::fill(angle_sum_.begin(), angle_sum_.end(), NT(0));
     std::fill(weight_.begin(), weight_.end(), NT(0));
     broken_.clear();
+  }
+
+  // Adds all triangles, in their order; returns whether their lengths are positive and finite. Vectors of any width give the same bits, if the
+  // program is not compiled for fused multiplications.
+  bool add_all_triangles()
+  {
+    if constexpr(sums_up_angles)
+      return has_avx2() ? add_all_with_avx2() : add_all_by_vectors<16>();
+    else
+      return add_triangles(0);
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 bool add_all_with_avx2() { return add_all_by_vectors<32>(); }
+
+  template <int bytes>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE bool add_all_by_vectors()
+  {
+    typedef Incircle_vectors<bytes> Triangles;
+    Triangles triangles;
+    bool is_finite = true;
+    Index f = 0;
+    for(; f + Triangles::lanes <= t_.number_of_faces(); f += Triangles::lanes)
+    {
+      compute(f, triangles, typename Triangles::Lanes());
+      for(int i = 0; i < Triangles::lanes; ++i)
+        if(triangles.is_plain[i] != 0)
+          add_corners(3 * (f + Index(i)), i, triangles);
+        else
+          is_finite = add_triangle(3 * (f + Index(i))) && is_finite;
+    }
+    return add_triangles(f) && is_finite;
+  }
+
+  template <typename Triangles, int... i>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(Index f, Triangles& triangles, std::integer_sequence<int, i...>) const
+  {
+    typedef typename Triangles::Vector Vector;
+    const Index h = 3 * f;
+    const Vector s[3] = {{scale_[t_.origin(h + 3 * i)]...}, {scale_[t_.origin(h + 3 * i + 1)]...}, {scale_[t_.origin(h + 3 * i + 2)]...}},
+                 l[3] = {{length_[t_.edge(h + 3 * i)]...}, {length_[t_.edge(h + 3 * i + 1)]...}, {length_[t_.edge(h + 3 * i + 2)]...}};
+    triangles.compute(s[0] * l[0] * s[1], s[1] * l[1] * s[2], s[2] * l[2] * s[0]);
+  }
+
+  template <typename Triangles>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void add_corners(Index h, int i, const Triangles& triangles)
+  {
+    for(Index k = 0; k < 3; ++k)
+    {
+      angle_sum_[t_.apex(h + k)] += triangles.angle[k][i];
+      weight_[t_.edge(h + k)] += triangles.cotangent[k][i];
+    }
+  }
+
+  // The same for those from f on, one by one.
+  bool add_triangles(Index f)
+  {
+    bool is_finite = true;
+    for(; f < t_.number_of_faces(); ++f)
+      is_finite = add_triangle(3 * f) && is_finite;
+    return is_finite;
   }
 
   // Adds the triangle of h; returns whether its lengths are positive and finite.
@@ -205,27 +273,45 @@ private:
   {
     const std::array<NT, 3> l = {{scaled_length(h), scaled_length(h + 1), scaled_length(h + 2)}};
     const Incircle_form<NT> triangle(l[0], l[1], l[2]);
-    if(triangle.is_triangle && triangle.r > 0)
+    if(!triangle.is_broken())
     {
-      const NT unit = 1 / triangle.s, y = triangle.r * unit;
       for(int k = 0; k < 3; ++k)
       {
-        sum_[t_.apex(h + k)].add(triangle.tangent[k] * unit, y);
+        add_angle(t_.apex(h + k), triangle, k);
         weight_[t_.edge(h + k)] += cotangent(triangle, k);
       }
     }
     else
     {
       broken_.push_back(Triangulation::face(h));
-      sum_[t_.apex(h + longest_side(l[0], l[1], l[2]))].add_straight();
+      add_straight_angle(t_.apex(h + longest_side(l[0], l[1], l[2])));
     }
     return l[0] > 0 && l[1] > 0 && l[2] > 0 && triangle.s - triangle.s == NT(0);
+  }
+
+  void add_angle(Index v, const Incircle_form<NT>& triangle, int k)
+  {
+    if constexpr(sums_up_angles)
+      angle_sum_[v] += angle(triangle, k);
+    else
+    {
+      const NT unit = 1 / triangle.s;
+      product_[v].add(triangle.tangent[k] * unit, triangle.r * unit);
+    }
+  }
+
+  void add_straight_angle(Index v)
+  {
+    if constexpr(sums_up_angles)
+      angle_sum_[v] += CGAL_PI;
+    else
+      product_[v].add_straight();
   }
 
   const Triangulation& t_;
   int exponent_ = 0; // lengths are divided by this power of two
   std::vector<NT> length_, scale_, angle_sum_, weight_;
-  std::vector<Angle_sum<NT> > sum_;
+  std::vector<Angle_sum<NT> > product_; // while it is formed, where angles are not summed up
   std::vector<Index> broken_;
 };
 
