@@ -16,6 +16,7 @@
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Folded_double.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/ideal_delaunay_energy.h>
@@ -193,6 +194,7 @@ private:
   {
     return result.status == Status::DEGENERATE_METRIC || result.status == Status::ITERATIONS_EXHAUSTED
         || result.status == Status::SINGULAR_PROBLEM
+        || (result.status == Status::SCALE_OUT_OF_RANGE && result.log_scale_factors.empty())
         || (result.status == Status::ANGLE_OUT_OF_RANGE && result.amount > 0);
   }
 
@@ -381,6 +383,7 @@ private:
     hold_one_of_each(bounds);
     const std::size_t factorizations_before = linear_.number_of_factorizations();
 
+    bool is_found = false;
     Vertex_vector u = first_guess(options);
     result.status = move_to_fixed_factors(energy, linear_, triangulation_, conditions, u) ? Status::OK : Status::SINGULAR_PROBLEM;
     if(result.status == Status::OK)
@@ -388,6 +391,7 @@ private:
       const Vertex_vector target = targets(conditions);
       Newton_method newton(energy, linear_, target, newton_options(options, may_give_up), result.statistics, options.visitor, bounds);
       result.status = newton(u);
+      is_found = result.status == Status::OK;
       has_given_up_ = newton.has_given_up();
       if(newton.has_come_near())
         foreseen_ = u;
@@ -404,7 +408,9 @@ private:
       scales_.settle(conditions, result.scale_factors);
     if(options.is_estimate && result.status == Status::ITERATIONS_EXHAUSTED) // the last u may still tell what is to be changed
       Wide_refinement<NT>::begin_at(conditions, u, result.scale_factors);
-    if(is_success(result.status) || !result.scale_factors.empty())
+    if(has_range_of_double<NT>() && energy.ranges_far() && (result.status == Status::ITERATIONS_EXHAUSTED || !are_factors(result.scale_factors)))
+      tell_range(u, is_found, result);
+    else if(is_success(result.status) || !result.scale_factors.empty())
       keep(result.scale_factors, conditions, u, result);
     result.statistics.number_of_factorizations = linear_.number_of_factorizations() - factorizations_before;
     result.statistics.number_of_regularized_rows = linear_.number_of_regularized_rows();
@@ -444,6 +450,32 @@ private:
     return result;
   }
 
+  // Are all positive numbers with all their digits, as e^{u/2} is where it is in range?
+  static bool are_factors(const std::vector<Wide_number>& s)
+  {
+    return std::all_of(s.begin(), s.end(), [](const Wide_number& x) { return x > 0 && std::isnormal(static_cast<double>(x)); });
+  }
+
+  // What `NT` cannot hold. If Newton's method has come to its end, u by itself is the metric nevertheless.
+  static void tell_range(const Vertex_vector& u, bool is_found, Metric& result)
+  {
+    tell_extremes(u, result.statistics);
+    result.status = Status::SCALE_OUT_OF_RANGE;
+    result.amount = result.statistics.largest_u - result.statistics.least_u;
+    result.faces.clear();
+    result.scale_factors.clear();
+    if(is_found)
+      for(const double x : u)
+        result.log_scale_factors.push_back(NT(x));
+  }
+
+  static void tell_extremes(const Vertex_vector& u, Statistics& statistics)
+  {
+    const auto extremes = std::minmax_element(u.begin(), u.end());
+    statistics.least_u = *extremes.first;
+    statistics.largest_u = *extremes.second;
+  }
+
   // The logarithms of the factors; those that are at their bounds, up to rounding, are these.
   void keep(const std::vector<Wide_number>& s, const Conditions& conditions, Vertex_vector& u, Metric& result)
   {
@@ -465,9 +497,7 @@ private:
       }
       u[v] = static_cast<double>(x);
     }
-    const auto extremes = std::minmax_element(u.begin(), u.end());
-    result.statistics.least_u = *extremes.first;
-    result.statistics.largest_u = *extremes.second;
+    tell_extremes(u, result.statistics);
     last_u_ = u;
   }
 

@@ -168,7 +168,7 @@ private:
   void move_to(const Vertex_patch& patch, const Vertex_vector& x)
   {
     for(std::size_t i = 0; i < x.size(); ++i)
-      this->set_scale(patch.vertices[i], std::exp(x[i] / 2));
+      this->set_log_scale(patch.vertices[i], x[i]);
   }
 
   Vertex_vector residual_on(const Vertex_patch& patch, const Vertex_vector& target) const
@@ -178,7 +178,7 @@ private:
       result.push_back(-target[v]);
     for(std::size_t i = 0; i < patch.faces.size(); ++i)
     {
-      const std::array<double, 3> l = this->scaled_lengths(patch.faces[i]);
+      const std::array<double, 3> l = this->sides_of(patch.faces[i]);
       const Incircle_form<double> triangle(l[0], l[1], l[2]);
       const bool is_broken = !triangle.is_triangle || !(triangle.r > 0);
       for(int k = 0; k < 3; ++k)
@@ -193,7 +193,7 @@ private:
     Patch_matrix result;
     for(std::size_t i = 0; i < patch.faces.size(); ++i)
     {
-      const std::array<double, 3> l = this->scaled_lengths(patch.faces[i]);
+      const std::array<double, 3> l = this->sides_of(patch.faces[i]);
       const Incircle_form<double> triangle(l[0], l[1], l[2]);
       if(!triangle.is_triangle || !(triangle.r > 0))
         continue; // its cotangents count as 0
