@@ -976,9 +976,9 @@ Real argument(const CEi::Complex_number<CEi::Double_double>& z)
   return atan2(Real(Real(z.im.hi) + z.im.lo), Real(Real(z.re.hi) + z.re.lo));
 }
 
-// The same bits one by one and by vectors of any width; and the residuals that they give, against 50 digits. With v = 2^-53 the bound is v of the residual
-// itself, as it is rounded to `double`, and what errors of the scaled lengths of 9 v^2, and as much again in the formulas, make of the angles: a corner moves by
-// 1 + |cot| + |cot| of the others at most times that; each of the products has another 20 v^2.
+// The same bits one by one and by vectors of any width; and the angle sums that they give, against 50 digits. With v = 2^-53 the bound is what
+// errors of the scaled lengths of 9 v^2, and as much again in the formulas, make of the angles: a corner moves by 1 + |cot| + |cot| of the
+// others at most times that; and each of the products has another 20 v^2.
 BOOST_AUTO_TEST_CASE(wide_angle_sums_by_vectors)
 {
   typedef CEi::Double_double Wide_number;

@@ -15,8 +15,9 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// A few numbers of type `Double_double`, lane by lane: with the operations of that type, in their order, and so with its bounds and, unless the program is
-// compiled for fused multiplications, its bits. Products are Dekker's, whatever the processor has; of factors beyond 2^996 they are NaN.
+// A few numbers of type `Double_double`, lane by lane: with the operations of that type, in their order, and so with its bounds and, unless the
+// program is compiled for fused multiplications, its bits. Products are Dekker's, whatever the processor has; of factors beyond 2^996 they
+// are NaN.
 template <int bytes>
 struct Double_double_vector
 {

@@ -215,11 +215,13 @@ private:
                        [](const Surface_components::Component& c) { return c.number_of_borders > 0; });
   }
 
-  // For one way of several: may it be given up, as there is another one?
-  static Newton_options newton_options(const Solver_options& options, bool may_give_up)
+  // For one way of several: may it be given up, as there is another one? Where the last steps follow, each of which doubles the number of digits,
+  // too, half of the digits is enough; where active bounds are to be told from others, it is not.
+  static Newton_options newton_options(const Solver_options& options, const Lower_bounds& bounds, bool may_give_up)
   {
+    const double near_enough = 1e-7; // its square is less than a residual in `double` can tell
     Newton_options result;
-    result.tolerance = options.gradient_tolerance;
+    result.tolerance = options.is_estimate || !bounds.empty() ? options.gradient_tolerance : (std::max)(options.gradient_tolerance, near_enough);
     result.number_of_iterations = options.number_of_iterations;
     result.strategy = options.newton_strategy;
     result.may_give_up = may_give_up;
@@ -385,12 +387,13 @@ private:
 
     bool is_found = false;
     Vertex_vector u = first_guess(options);
-    result.status = move_to_fixed_factors(energy, linear_, triangulation_, conditions, u) ? Status::OK : Status::SINGULAR_PROBLEM;
+    const Starting_point start = move_to_fixed_factors(energy, linear_, triangulation_, conditions, u);
+    result.status = start.has_factor ? Status::OK : Status::SINGULAR_PROBLEM;
     if(result.status == Status::OK)
     {
       const Vertex_vector target = targets(conditions);
-      Newton_method newton(energy, linear_, target, newton_options(options, may_give_up), result.statistics, options.visitor, bounds);
-      result.status = newton(u);
+      Newton_method newton(energy, linear_, target, newton_options(options, bounds, may_give_up), result.statistics, options.visitor, bounds);
+      result.status = newton(u, start.is_evaluated);
       is_found = result.status == Status::OK;
       has_given_up_ = newton.has_given_up();
       if(newton.has_come_near())

@@ -24,6 +24,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Nonlinear_elimination.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Trust_region.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/line_search.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
@@ -58,10 +59,12 @@ public:
   {}
 
   // Improves u until the residual is within the tolerance or the rounding floor.
-  // Returns OK, ITERATIONS_EXHAUSTED, SINGULAR_PROBLEM or STOPPED_BY_VISITOR.
-  Status operator()(Vertex_vector& u)
+  // Returns OK, ITERATIONS_EXHAUSTED, SINGULAR_PROBLEM or STOPPED_BY_VISITOR. If `is_evaluated`, the energy is at u already.
+  Status operator()(Vertex_vector& u, bool is_evaluated = false)
   {
-    if(!lift(u) || !evaluate(u, residual_))
+    if(is_evaluated && active_set_.empty())
+      residual_at_.get(residual_);
+    else if(!lift(u) || !evaluate(u, residual_))
       return Status::ITERATIONS_EXHAUSTED;
     active_set_.hold_active(u, residual_, 0);
     for(std::size_t iteration = 0; ; ++iteration)
@@ -276,9 +279,7 @@ private:
         residual_.swap(r);
         return true;
       }
-      // the zero of the secant through both slopes, safeguarded
-      const double secant = is_finite && slope_there < slope ? slope / (slope - slope_there) : 0.1; // else too far
-      t *= (std::min)(0.7, (std::max)(0.1, secant));
+      t = shorter_step(t, slope, slope_there);
     }
     return begin_trust_region(u);
   }

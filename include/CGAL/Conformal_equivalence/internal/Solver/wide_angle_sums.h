@@ -111,8 +111,9 @@ void add_corners(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Wi
   }
 }
 
-// The same for `Double_double`, by vectors: of a few triangles, and then, triangle by triangle, of its three corners, which are added to three products. To the
-// same bits, unless the program is compiled for fused multiplications. As the triangles of `Incircle_vectors`, those that need care are left to the functions above.
+// The same for `Double_double`, by vectors: of a few triangles, and then, triangle by triangle, of its three corners, which are added to three
+// products. To the same bits, unless the program is compiled for fused multiplications. As with `Incircle_vectors`, triangles that need care
+// are left to the functions above.
 template <int bytes>
 class Wide_corner_vectors
 {
@@ -247,7 +248,8 @@ private:
 
 // The scaled lengths from `first` on, one by one.
 template <typename NT, typename Wide>
-void set_wide_lengths(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, std::uint32_t first, std::uint32_t last, std::vector<Wide>& result)
+void set_wide_lengths(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, std::uint32_t first, std::uint32_t last,
+                      std::vector<Wide>& result)
 {
   for(std::uint32_t e = first; e < last; ++e)
     result[e] = wide_length(t, s, t.edge_halfedge(e));
@@ -312,7 +314,8 @@ inline void add_wide_angles(const Intrinsic_triangulation<double>& t, const std:
 }
 
 template <typename NT, typename Wide>
-void add_wide_angles(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, std::vector<Wide>& length, std::vector<Wide_angle_sum<Wide> >& sum)
+void add_wide_angles(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, std::vector<Wide>& length,
+                     std::vector<Wide_angle_sum<Wide> >& sum)
 {
   set_wide_lengths(t, s, 0, t.number_of_edges(), length);
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)

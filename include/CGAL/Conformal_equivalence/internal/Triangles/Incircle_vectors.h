@@ -17,10 +17,10 @@ namespace internal {
 // Angles and cotangents of a few triangles at once, by the formulas of `Incircle_form`. Triangles that need care, as they are broken, or sides differ
 // by some seventy orders of magnitude, are left to it.
 //
-// Errors, with u = 2^-53: the tangents s - a, ... have relative errors of 2u as functions of the sides, and s of 2u. So tan(alpha/2), the root of three
-// of these divided by the fourth, is off by 6.5u, or 7.5u where it is divided out. That moves alpha by 6.5u sin(alpha), and its cotangent by
-// 7.5u / sin(alpha). The arc tangent adds 5u, which is doubled, and the cotangent is rounded four times more. So errors of angles are at
-// most 17u, those of cotangents 8u / sin(alpha) + 4u |cot(alpha)|.
+// Errors, with u = 2^-53: the tangents s - a, ... have relative errors of 2u as functions of the sides, and s of 2u. So tan(alpha/2), the root
+// of three of these divided by the fourth, is off by 6.5u, or 7.5u where it is divided out. That moves alpha by 6.5u sin(alpha), and its
+// cotangent by 7.5u / sin(alpha). The arc tangent adds 5u, which is doubled, and the cotangent is rounded four times more. So errors of
+// angles are at most 17u, those of cotangents 8u / sin(alpha) + 4u |cot(alpha)|.
 template <int bytes>
 struct Incircle_vectors
 {
@@ -70,10 +70,10 @@ private:
     result = Vector{std::sqrt(entries[i])...};
   }
 
-  // The argument of x + i y in the first quadrant. With q <= 1 the smaller of x and y, divided by the larger, its arc tangent is that of t = q, or, beyond
-  // tan(pi/8), pi/4 and that of t = (q - 1) / (q + 1). The polynomial, which interpolates (atan(t)/t - 1)/t^2 at the zeros of a Chebyshev polynomial
-  // in t^2, has an error below 2^-56 of atan(t) for |t| <= tan(pi/8). With the roundings of t, which move it by 1.2u at most, those of the polynomial,
-  // of two constants and of two sums below pi/2, the error is at most 5u.
+  // The argument of x + i y in the first quadrant. With q <= 1 the smaller of x and y, divided by the larger, its arc tangent is that of t = q,
+  // or, beyond tan(pi/8), pi/4 and that of t = (q - 1) / (q + 1). The polynomial, which interpolates (atan(t)/t - 1)/t^2 at the zeros of a
+  // Chebyshev polynomial in t^2, has an error below 2^-56 of atan(t) for |t| <= tan(pi/8). With the roundings of t, which move it by 1.2u at
+  // most, those of the polynomial, of two constants and of two sums below pi/2, the error is at most 5u.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_arc_tangent(const Vector& y, const Vector& x, Vector& result)
   {
     const double c[] = {-0x1.5555555555555p-2, 0x1.999999999934ap-3, -0x1.24924924360cbp-3, 0x1.c71c7185314cbp-4,
