@@ -385,21 +385,13 @@ private:
     hold_one_of_each(bounds);
     const std::size_t factorizations_before = linear_.number_of_factorizations();
 
-    bool is_found = false;
     Vertex_vector u = first_guess(options);
     const Starting_point start = move_to_fixed_factors(energy, linear_, triangulation_, conditions, u);
     result.status = start.has_factor ? Status::OK : Status::SINGULAR_PROBLEM;
     if(result.status == Status::OK)
-    {
-      const Vertex_vector target = targets(conditions);
-      Newton_method newton(energy, linear_, target, newton_options(options, bounds, may_give_up), result.statistics, options.visitor, bounds);
-      result.status = newton(u, start.is_evaluated);
-      is_found = result.status == Status::OK;
-      has_given_up_ = newton.has_given_up();
-      if(newton.has_come_near())
-        foreseen_ = u;
-    }
-    if(result.status == Status::OK)
+      run_newton(energy, targets(conditions), options, newton_options(options, bounds, may_give_up), bounds, start.is_evaluated, u, result);
+    const bool is_found = result.status == Status::OK;
+    if(is_found)
     {
       Wide_refinement<NT> last_steps(energy, linear_, scales_, conditions, bounds, options.gradient_tolerance);
       if(options.is_estimate)
@@ -411,7 +403,7 @@ private:
       scales_.settle(conditions, result.scale_factors);
     if(options.is_estimate && result.status == Status::ITERATIONS_EXHAUSTED) // the last u may still tell what is to be changed
       Wide_refinement<NT>::begin_at(conditions, u, result.scale_factors);
-    if(has_range_of_double<NT>() && energy.ranges_far() && (result.status == Status::ITERATIONS_EXHAUSTED || !are_factors(result.scale_factors)))
+    if(leaves_range(energy) && (result.status == Status::ITERATIONS_EXHAUSTED || !are_factors(result.scale_factors)))
       tell_range(u, is_found, result);
     else if(is_success(result.status) || !result.scale_factors.empty())
       keep(result.scale_factors, conditions, u, result);
@@ -419,6 +411,23 @@ private:
     result.statistics.number_of_regularized_rows = linear_.number_of_regularized_rows();
     judge(energy, options.is_estimate, result);
   }
+
+  // Where numbers range too far for the last steps, to the tolerance itself.
+  void run_newton(Refinable_energy<NT>& energy, const Vertex_vector& target, const Solver_options& options, Newton_options newton_options,
+                  const Lower_bounds& bounds, bool is_evaluated, Vertex_vector& u, Metric& result)
+  {
+    Newton_method newton(energy, linear_, target, newton_options, result.statistics, options.visitor, bounds);
+    result.status = newton(u, is_evaluated);
+    has_given_up_ = newton.has_given_up();
+    if(newton.has_come_near())
+      foreseen_ = u;
+    if(result.status != Status::OK || newton_options.tolerance <= options.gradient_tolerance || !leaves_range(energy))
+      return;
+    newton_options.tolerance = options.gradient_tolerance;
+    result.status = Newton_method(energy, linear_, target, newton_options, result.statistics, options.visitor, bounds)(u, true);
+  }
+
+  static bool leaves_range(const Abstract_energy& energy) { return has_range_of_double<NT>() && energy.ranges_far(); }
 
   // Else the matrix of a component that rests on its bounds is singular.
   void hold_one_of_each(const Lower_bounds& bounds)

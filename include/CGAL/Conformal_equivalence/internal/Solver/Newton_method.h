@@ -273,8 +273,7 @@ private:
         slope_there = (dot(r, trial) - dot(r, u)) / t;
       if(slope_there >= -tolerable_rise() * slope)
       {
-        // a hundredth of a step, without much effect: u is to go very far
-        reach_ = first > 0.01 || t < first || slope_there < 0.5 * slope ? least_reach : 2 * reach_;
+        adapt_reach(first, t < first, slope_there / slope);
         u.swap(trial);
         residual_.swap(r);
         return true;
@@ -282,6 +281,19 @@ private:
       t = shorter_step(t, slope, slope_there);
     }
     return begin_trust_region(u);
+  }
+
+  // Where u is to go very far, as on a long strip, steps that are cut short leave E falling at nearly the same pace. If that is seen
+  // for a while, or if they are but a hundredth of what they were, the next one may be longer.
+  void adapt_reach(double part, bool is_cut_further, double remaining_slope)
+  {
+    const int a_while = 3;
+    const bool is_far_from_end = part < 1 && !is_cut_further && remaining_slope > 0.25;
+    short_steps_ = is_far_from_end ? short_steps_ + 1 : 0;
+    if(is_far_from_end && (short_steps_ > a_while || (part <= 0.01 && remaining_slope > 0.5)))
+      reach_ *= 2;
+    else if(part == 1 || is_cut_further || remaining_slope <= 0)
+      reach_ = least_reach;
   }
 
   // The factor for the trust region is that of the first metric again: a Hessian at broken triangles makes a
@@ -348,6 +360,7 @@ private:
   std::size_t last_gain_ = 0;                              // the iteration when it was found
   static constexpr double least_reach = 5;
   double reach_ = least_reach;        // of a step in u, where it is bounded
+  int short_steps_ = 0;               // that were cut to the reach, one after the other
   Vertex_vector landmark_;  // u where the trust region was some steps ago
   std::size_t landmark_iteration_ = 0;
   bool has_given_up_ = false;
