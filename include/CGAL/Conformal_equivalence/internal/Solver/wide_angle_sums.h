@@ -94,14 +94,12 @@ private:
   }
 };
 
-// Adds the corners of f, of which `a`, `b` and `c` are the sides. Broken triangles count as in the extended energy.
-template <typename NT, typename Wide>
-void add_corners(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Wide& a, const Wide& b, const Wide& c,
-                 std::vector<Wide_angle_sum<Wide> >& sum)
+// Adds the corners of f, whose lengths are multiplied by `unit`: it has to be about the inverse of the semiperimeter.
+template <typename NT, typename Wide, typename Unit>
+void add_corners_of(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Incircle_form<Wide>& triangle, const Unit& unit,
+                    std::vector<Wide_angle_sum<Wide> >& sum)
 {
   typedef Complex_number<Wide> Complex;
-  const Incircle_form<Wide> triangle(a, b, c);
-  const double unit = 1 / static_cast<double>(triangle.s);
   for(std::uint32_t k = 0; k < 3; ++k)
   {
     if(!triangle.is_broken())
@@ -109,6 +107,19 @@ void add_corners(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Wi
     else if(!(triangle.tangent[k] > 0))
       sum[t.apex(3 * f + k)].add(Complex{Wide(0), Wide(1)});
   }
+}
+
+// Adds the corners of f, of which `a`, `b` and `c` are the sides. Broken triangles count as in the extended energy.
+template <typename NT, typename Wide>
+void add_corners(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Wide& a, const Wide& b, const Wide& c,
+                 std::vector<Wide_angle_sum<Wide> >& sum)
+{
+  const Incircle_form<Wide> triangle(a, b, c);
+  const double s = static_cast<double>(triangle.s);
+  if(std::isnormal(s))
+    add_corners_of(t, f, triangle, 1 / s, sum);
+  else // out of the range of `double`
+    add_corners_of(t, f, triangle, Wide(1 / triangle.s), sum);
 }
 
 // The same for `Double_double`, by vectors: of a few triangles, and then, triangle by triangle, of its three corners, which are added to three

@@ -76,7 +76,7 @@ private:
     return twofold_.lost_border_edges(surface_, polyhedron.triangulation, polyhedron.flips).empty() || polyhedron.flips.empty();
   }
 
-  // On the way along a strip vectors grow exponentially: until all are known, each has a power of two of its own.
+  // Along a strip vectors grow exponentially: until all are known, and how far they range, each has a power of two of its own.
   void place()
   {
     const Triangulation& t = polyhedron.triangulation;
@@ -120,7 +120,7 @@ private:
     return {{Wide(ldexp(x[0], exponent)), Wide(ldexp(x[1], exponent)), Wide(ldexp(x[2], exponent)), Wide(ldexp(x[3], exponent))}};
   }
 
-  // Brings the middle of all that were placed near 1, unless they range too far.
+  // Gives the vectors that were placed their powers of two, unless they range too far.
   void join_exponents(const std::vector<char>& is_placed)
   {
     int least = (std::numeric_limits<int>::max)(), largest = (std::numeric_limits<int>::min)();
@@ -130,8 +130,8 @@ private:
         least = (std::min)(least, exponents_[v]);
         largest = (std::max)(largest, exponents_[v]);
       }
-    const int widest = 900; // of 2046: squares are in range, too
-    if(has_range_of_double<Wide>() && largest - least > widest)
+    const int farthest = 450; // of 1023: products of two are in range, too
+    if(has_range_of_double<Wide>() && (std::max)(largest, -least) > farthest)
     {
       polyhedron.status = Status::SCALE_OUT_OF_RANGE;
       polyhedron.amount = std::log(2.) * (largest - least);
@@ -139,7 +139,7 @@ private:
     }
     for(std::size_t v = 0; v < exponents_.size(); ++v)
       if(is_placed[v])
-        polyhedron.vectors[v] = multiplied(polyhedron.vectors[v], exponents_[v] - least - (largest - least) / 2);
+        polyhedron.vectors[v] = multiplied(polyhedron.vectors[v], exponents_[v]);
   }
 
   // The corners 0, 1, 2 of the first face at 0, 1 and infinity.
