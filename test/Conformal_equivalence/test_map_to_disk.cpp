@@ -702,6 +702,47 @@ BOOST_AUTO_TEST_CASE(polygons)
     }
 }
 
+// The squares of a strip have the cross ratio -1: from each to the next, seen from one end, lengths shrink by the square of 1 + sqrt(2) = e^{asinh 1}.
+BOOST_AUTO_TEST_CASE(long_strips)
+{
+  const double rate = std::asinh(1.);
+  {
+    Maps m(testing::strip(1000, 1));
+    const Report report = m.map();
+    BOOST_CHECK(report.status == CE::Status::SCALE_OUT_OF_RANGE);
+    BOOST_TEST(std::abs(report.amount - 2000 * rate) <= 5); // the ends, and exponents for logarithms
+  }
+  typedef CE::Multiprecision_number Number;
+  typedef std::array<Number, 2> Wide_point;
+  struct Place
+  {
+    Wide_point p;
+    Place() = default;
+    Place(const Number& x, const Number& y) : p{{x, y}} {}
+  };
+  // From the middle to both ends lengths shrink by e^{-n asinh 1} = 2^-254, and the height of a triangle on the circle is the square of that.
+  const Index n = 200;
+  const CE::Working_precision precision(800);
+  Maps m(testing::strip(n, 1));
+  std::map<Vertex, Place> places;
+  const boost::associative_property_map<std::map<Vertex, Place> > in_disk(places);
+  const Report report = CE::map_to_disk<Number>(m.sm, in_disk);
+  BOOST_TEST_CONTEXT(CE::message(report))
+  BOOST_REQUIRE(bool(report)); // the verdict is exact
+  // all squares keep their cross ratio
+  const auto difference = [&](Index v, Index w)
+  {
+    const Wide_point &p = places.at(Vertex(v)).p, &q = places.at(Vertex(w)).p;
+    return std::array<Number, 2>{{p[0] - q[0], p[1] - q[1]}};
+  };
+  for(Index i = 0; i < n; ++i)
+  {
+    const auto a = difference(2 * i, 2 * i + 2), b = difference(2 * i + 2, 2 * i + 3), c = difference(2 * i + 3, 2 * i + 1), d = difference(2 * i + 1, 2 * i);
+    const auto square = [](const std::array<Number, 2>& z) { return Number(z[0] * z[0] + z[1] * z[1]); };
+    BOOST_TEST(std::abs(static_cast<double>(Number(square(a) * square(c) / (square(b) * square(d)) - 1))) <= std::ldexp(1., -500)); // of 800 bits, 254 are lost
+  }
+}
+
 // Points of the disk, with the border on the circle, are their own image, up to a Moebius transformation.
 BOOST_AUTO_TEST_CASE(disks)
 {

@@ -472,6 +472,51 @@ BOOST_AUTO_TEST_CASE(residuals_below_the_range_of_double)
   BOOST_TEST((abs(Number(size - measured)) <= measured * 10 * testing::few_roundings)); // its digits are those of double
 }
 
+// A strip of squares, two abreast, straightened along both of its sides and open at its end, is a fan whose scale shrinks by 2 + sqrt(3) = e^{acosh 2} from
+// each pair to the next.
+template <typename NT>
+CE::Conformal_metric<NT> opened_strip(std::uint32_t n, CE::Intrinsic_triangulation<NT> t, double tolerance)
+{
+  CE::Conformal_conditions<NT> conditions(t);
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    if(t.is_border_vertex(v) && v / 3 != 0)
+      conditions.prescribe_angle_sum(v, CE::Exact_angle<NT>::pi_times(1));
+  CGAL_precondition(t.number_of_vertices() == 3 * (n + 1));
+  return CE::compute_conformal_metric(t, conditions, CGAL::parameters::gradient_tolerance(tolerance));
+}
+
+// Where e^{u/2} is in the range of `double`, and far beyond it. There `double` says so, and tells u; more digits, and exponents, find the whole metric.
+BOOST_AUTO_TEST_CASE(u_beyond_the_range_of_double)
+{
+  const CE::Working_precision precision(200);
+  for(const std::uint32_t n : { 100u, 1200u })
+  {
+    const auto t = testing::triangulation(testing::strip(n, 2));
+    const auto metric = opened_strip(n, t, 1e-12);
+    BOOST_CHECK(metric.status == (n == 100 ? CE::Status::OK : CE::Status::SCALE_OUT_OF_RANGE));
+    BOOST_REQUIRE_EQUAL(metric.log_scale_factors.size(), t.number_of_vertices());
+    const auto wide = opened_strip(n, testing::widened<Number>(t), 1e-40);
+    BOOST_TEST_CONTEXT(CE::message(wide.status) << ", residual " << wide.statistics.residual << ", " << wide.statistics.number_of_iterations << " steps, u from "
+                       << wide.statistics.least_u)
+    BOOST_REQUIRE(wide.status == CE::Status::OK);
+    CE::Conformal_conditions<Number> conditions(wide.triangulation);
+    for(std::uint32_t v = 3; v < t.number_of_vertices(); ++v)
+      if(t.is_border_vertex(v))
+        conditions.prescribe_angle_sum(v, CE::Exact_angle<Number>::pi_times(1));
+    BOOST_TEST(measured_residual(wide, conditions) <= Number(1e-40));
+    const double range = wide.statistics.largest_u - wide.statistics.least_u;
+    BOOST_TEST(std::abs(range - n * std::acosh(2.)) <= 5);
+    if(n == 1200)
+    {
+      BOOST_TEST(metric.scale_factors.empty());
+      BOOST_TEST(std::abs(metric.amount - range) <= 1e-9 * range);
+    }
+    // At angle sums that are right to 1e-12, the squares, one after the other, are right to 1e-11 each: their errors add up.
+    for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+      BOOST_TEST(std::abs(static_cast<double>(Number(wide.log_scale_factors[v] - metric.log_scale_factors[v]))) <= 1e-11 * n);
+  }
+}
+
 // Newton's method with all of its linear algebra in the wide type.
 template <typename Wide, typename NT>
 void check_wide_steps(const CE::Intrinsic_triangulation<NT>& t, double limit, int steps)

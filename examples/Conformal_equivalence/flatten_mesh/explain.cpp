@@ -185,16 +185,34 @@ std::string advice_on_topology(const Options& options)
 
 // Lengths are scaled by e^u: where that ranges further than the digits of a number do, points that differ are rounded to the same one. With
 // some more digits they are not.
+std::string precision_for(const Options& options, double range_of_u)
+{
+  const double range = range_of_u / std::log(2.), digits_that_triangles_need = 64;
+  const double certain = options.target == Target::PLANE ? range : 2 * range; // there the areas of triangles are beside coordinates of about 1
+  const double bits = std::ceil((certain + digits_that_triangles_need) / 64) * 64;
+  return bits <= most_bits ? text("--precision ", bits) : "";
+}
+
 std::string advice_on_range(const Options& options, const CE::Statistics& statistics)
 {
-  const double range = (statistics.largest_u - statistics.least_u) / std::log(2.), digits_that_triangles_need = 64;
-  if(! (range > options.precision_in_bits - 20))
+  const double range = statistics.largest_u - statistics.least_u;
+  if(! (range > std::log(2.) * (options.precision_in_bits - 20)))
     return "";
-  const double certain = options.target == Target::PLANE ? range : 2 * range; // there the areas of triangles are beside coordinates of about 1
-  const int bits = static_cast<int>(std::ceil((certain + digits_that_triangles_need) / 64)) * 64;
+  const std::string precision = precision_for(options, range);
+  if(precision.empty())
+    return text(" (u ranges from ", statistics.least_u, " to ", statistics.largest_u, ", further than coordinates of ", most_bits, " bits)");
   return text(" (u ranges from ", statistics.least_u, " to ", statistics.largest_u, ", further than the ", options.precision_in_bits,
-              " bits of coordinates: --precision ", bits, options.target != Target::PLANE ? " or more helps)" :
+              " bits of coordinates: ", precision, options.target != Target::PLANE ? " or more helps)" :
               ", or cones where triangles are lost, help)");
+}
+
+// Where not even the factors are in range.
+std::string advice_on_scale(const Options& options, double range_of_u)
+{
+  if(is_computed_in_double_only(options))
+    return "";
+  const std::string precision = precision_for(options, range_of_u);
+  return precision.empty() ? text(" (further than coordinates of ", most_bits, " bits)") : " (" + precision + " or more helps)";
 }
 
 std::string advice_on_injectivity(const Options& options, const CE::Statistics& statistics)
@@ -220,6 +238,8 @@ std::string advice(const Options& options, const Report& report)
     case CE::Status::ITERATIONS_EXHAUSTED:
     case CE::Status::SINGULAR_PROBLEM:
       return advice_to_converge(options, report);
+    case CE::Status::SCALE_OUT_OF_RANGE:
+      return advice_on_scale(options, report.amount);
     case CE::Status::WRONG_TOPOLOGY:
       return advice_on_topology(options);
     case CE::Status::NO_ANGLE_LEFT:

@@ -89,7 +89,7 @@ po::options_description visible_options()
     ("color-by", po::value<std::string>()->default_value("u"), "u | qc: colours of the drawing")
     ("tolerance", po::value<std::string>()->default_value("1e-12"), "largest error of an angle sum, in radians")
     ("max-iterations", po::value<long long>()->default_value(100), "bound on the number of Newton steps")
-    ("precision", po::value<std::string>()->default_value("double"), "double | BITS: computes with numbers of so many bits (up to 4096), "
+    ("precision", po::value<std::string>()->default_value("double"), "double | BITS: computes with numbers of so many bits (up to 16384), "
        "as exactly as they allow, and writes all of their digits")
     ("solver", po::value<std::string>(), "the linear solver: multifrontal, simplicial (Eigen) or cholmod (if compiled in)")
     ("default-input", po::value<std::string>(), "FILE: the INPUT if none is given; for scripts")
@@ -338,8 +338,8 @@ void parse_numbers(const po::variables_map& values, Options& options)
     throw Usage_error(text("--tolerance takes a positive number, not '", tolerance, "'"));
   const std::string precision = values["precision"].as<std::string>();
   std::int64_t bits = 53;
-  if(precision != "double" && (! Scanner::parse(precision, bits) || bits < 2 || bits > 4096))
-    throw Usage_error(text("--precision takes 'double' or a number of bits up to 4096, not '", precision, "'"));
+  if(precision != "double" && (! Scanner::parse(precision, bits) || bits < 2 || bits > most_bits))
+    throw Usage_error(text("--precision takes 'double' or a number of bits up to ", most_bits, ", not '", precision, "'"));
   options.precision_in_bits = static_cast<unsigned int>((std::max)(bits, std::int64_t(53)));
   const std::string slack = values["mollify"].as<std::string>();
   if(! Scanner::parse(slack, options.mollification) || ! (options.mollification >= 0) || ! (options.mollification <= 1))

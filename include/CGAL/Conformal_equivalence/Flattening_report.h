@@ -200,6 +200,7 @@ inline std::string amount_text(Status status, double amount)
       return amount == 0 ? std::string()
                          : ": a closed surface of genus other than 1 needs cones, whose curvatures (2 pi - angle) sum up to "
                            + number + " radians";
+    case Status::SCALE_OUT_OF_RANGE:    return ": u ranges over " + number;
     case Status::TOO_MANY_CROSSINGS:
     case Status::TOO_MANY_CONES:
     case Status::BOUND_NOT_MET:         return ": " + number;

@@ -101,17 +101,18 @@ private:
   typedef internal::Mixed_precision_factor<float, double> Factor;
 
   template <typename Function>
-  static bool apply(const Vector& B, Vector& X, const Function& replace)
+  bool apply(const Vector& B, Vector& X, const Function& replace)
   {
-    std::vector<double> b(B.data(), B.data() + B.size());
-    const bool is_solved = replace(b);
+    b_.assign(B.data(), B.data() + B.size());
+    const bool is_solved = replace(b_);
     X.resize(B.size());
-    for(std::size_t i = 0; i < b.size(); ++i)
-      X[int(i)] = b[i];
+    for(std::size_t i = 0; i < b_.size(); ++i)
+      X[int(i)] = b_[i];
     return is_solved;
   }
 
   Factor factor_;
+  std::vector<double> b_; // right-hand side, then solution
 };
 
 /// \ingroup PkgConformalEquivalenceSolver

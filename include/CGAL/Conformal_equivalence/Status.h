@@ -36,6 +36,9 @@ enum class Status
   MISSING_CONDITION,
   SINGULAR_PROBLEM,      ///< the linear system could not be factorized
   ITERATIONS_EXHAUSTED,  ///< not converged; `amount` is the residual (radians), `faces` the triangles broken at that point
+  /// u, which ranges over `amount`, leaves the range of the number type, or that of points in it: a number type with more digits, and a wider range
+  /// of exponents, finds it
+  SCALE_OUT_OF_RANGE,
   DEGENERATE_METRIC,     ///< the minimizer violates the triangle inequality in `faces`; if edges were flipped, in triangles at `vertices`
   NOT_INJECTIVE,         ///< the layout flips `faces`, or its border crosses itself
   SEAM_LEAVES_NO_DISK,   ///< cut along the given seam, `edges`, the surface is no disk; see `Flattening_report::topology`
@@ -86,6 +89,7 @@ constexpr Status_description description(Status status)
     case Status::MISSING_CONDITION:     return {"a condition is missing", SMP::ERROR_BORDER_TOO_SHORT};
     case Status::SINGULAR_PROBLEM:      return {"the linear system cannot be factorized", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM};
     case Status::ITERATIONS_EXHAUSTED:  return {"the iteration did not converge", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM};
+    case Status::SCALE_OUT_OF_RANGE:    return {"the scale factors leave the range of the number type", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM};
     case Status::DEGENERATE_METRIC:     return {"the metric violates the triangle inequality", SMP::ERROR_NO_1_TO_1_MAPPING};
     case Status::NOT_INJECTIVE:         return {"the map is not injective", SMP::ERROR_NO_1_TO_1_MAPPING};
     case Status::SEAM_LEAVES_NO_DISK:   return {"the seam does not cut the surface into a disk", SMP::ERROR_NO_TOPOLOGICAL_DISC};

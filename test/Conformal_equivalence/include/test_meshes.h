@@ -112,6 +112,23 @@ Soup grid(Index n, Height z)
   return soup;
 }
 
+// n x m unit squares in the plane, each cut along a diagonal; vertex (i, j) is number (m + 1) i + j.
+inline Soup strip(Index n, Index m)
+{
+  Soup soup;
+  for(Index i = 0; i <= n; ++i)
+    for(Index j = 0; j <= m; ++j)
+      soup.points.push_back({{double(i), double(j), 0}});
+  for(Index i = 0; i < n; ++i)
+    for(Index j = 0; j < m; ++j)
+    {
+      const Index a = (m + 1) * i + j, b = a + m + 1;
+      soup.triangles.push_back({{a, b, b + 1}});
+      soup.triangles.push_back({{a, b + 1, a + 1}});
+    }
+  return soup;
+}
+
 inline Soup flat_grid(Index n)
 {
   return grid(n, [](double, double) { return 0.; });

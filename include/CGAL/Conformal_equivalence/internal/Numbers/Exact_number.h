@@ -9,6 +9,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NUMBERS_EXACT_NUMBER_H
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 
 #include <CGAL/enum.h>
 
@@ -144,6 +145,9 @@ Exact_number exact_number(const NT& x)
   }
   return result;
 }
+
+template <typename NT>
+Exact_number exact_number(const Scaled_number<NT>& x) { return exact_number(x.mantissa) * Exact_number(1, long(x.exponent)); }
 
 struct To_exact
 {

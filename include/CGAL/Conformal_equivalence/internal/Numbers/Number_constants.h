@@ -16,12 +16,14 @@ template <typename NT>
 struct Number_constants
 {
   static NT pi() { return boost::math::constants::pi<NT>(); }
+  static NT ln_2() { return boost::math::constants::ln_two<NT>(); }
 };
 
 template <>
 struct Number_constants<Double_double>
 {
   static Double_double pi() { return quick_two_sum(3.141592653589793116, 1.2246467991473531772e-16); }
+  static Double_double ln_2() { return quick_two_sum(0.69314718055994528623, 2.3190468138462995584e-17); }
 };
 
 } // namespace internal

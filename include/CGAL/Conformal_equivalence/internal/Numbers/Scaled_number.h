@@ -20,9 +20,15 @@ namespace internal {
 template <typename NT>
 NT mantissa(const NT& x, int& exponent)
 {
+  using std::frexp;
   using std::ldexp;
-  std::frexp(static_cast<double>(x), &exponent);
-  return ldexp(x, -exponent);
+  if constexpr(std::numeric_limits<NT>::max_exponent > std::numeric_limits<double>::max_exponent)
+    return frexp(x, &exponent);
+  else
+  {
+    (void) std::frexp(static_cast<double>(x), &exponent);
+    return ldexp(x, -exponent);
+  }
 }
 
 // The exponent of a number that is finite and not 0.
@@ -42,7 +48,6 @@ struct Scaled_number
 
   Scaled_number() : mantissa(0), exponent(0) {}
   Scaled_number(const NT& m, std::int64_t e) : mantissa(m), exponent(e) {}
-  /// \pre `x` is not far beyond the range of `double`
   explicit Scaled_number(const NT& x)
   {
     int e = 0;
@@ -93,9 +98,8 @@ struct Scaled_number
 private:
   Scaled_number& append(const NT& x, int sign)
   {
-    using std::frexp;
     int e = 0;
-    const NT m = frexp(x, &e);
+    const NT m = internal::mantissa(x, e);
     if(sign > 0)
       mantissa *= m;
     else

@@ -7,8 +7,10 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NUMBERS_NUMBER_CONVERSIONS_H
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 
 #include <limits>
+#include <type_traits>
 
 namespace CGAL {
 namespace Conformal_equivalence {
@@ -17,12 +19,14 @@ namespace internal {
 struct To_double
 {
   template <typename NT> double operator()(const NT& x) const { return static_cast<double>(x); }
+  double operator()(const Scaled_number<double>& x) const { return x.value(); }
 };
 
 struct To_double_double
 {
   Double_double operator()(double x) const { return x; }
   const Double_double& operator()(const Double_double& x) const { return x; }
+  Double_double operator()(const Scaled_number<double>& x) const { return x.value(); }
   template <typename NT>
   Double_double operator()(const NT& x) const
   {
@@ -31,11 +35,14 @@ struct To_double_double
   }
 };
 
+template <typename NT> struct has_exponent_apart : std::false_type {};
+template <typename NT> struct has_exponent_apart<Scaled_number<NT> > : std::true_type {};
+
 // whether numbers have the range of `double`
 template <typename NT>
 constexpr bool has_range_of_double()
 {
-  return std::numeric_limits<NT>::max_exponent <= std::numeric_limits<double>::max_exponent;
+  return std::numeric_limits<NT>::max_exponent <= std::numeric_limits<double>::max_exponent && !has_exponent_apart<NT>::value;
 }
 
 // The bits of the significand of NT; found by trial where the type does not tell (precision chosen at run time).

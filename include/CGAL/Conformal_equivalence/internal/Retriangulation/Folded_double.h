@@ -240,6 +240,7 @@ public:
   const std::vector<Index>& broken_faces() const override { return energy_.broken_faces(); }
   std::vector<double> sensitivities() const override { return this->surface().fold(energy_.sensitivities()); }
   bool has_flips() const override { return true; }
+  bool ranges_far() const override { return energy_.ranges_far(); }
   std::size_t number_of_probes() const override { return energy_.number_of_probes(); }
 
   // The vertex and its image are moved one after the other, which is the same as both at once unless they are neighbors.

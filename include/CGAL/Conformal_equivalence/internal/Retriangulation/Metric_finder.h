@@ -16,6 +16,7 @@
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Folded_double.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/ideal_delaunay_energy.h>
@@ -193,6 +194,7 @@ private:
   {
     return result.status == Status::DEGENERATE_METRIC || result.status == Status::ITERATIONS_EXHAUSTED
         || result.status == Status::SINGULAR_PROBLEM
+        || (result.status == Status::SCALE_OUT_OF_RANGE && result.log_scale_factors.empty())
         || (result.status == Status::ANGLE_OUT_OF_RANGE && result.amount > 0);
   }
 
@@ -213,11 +215,13 @@ private:
                        [](const Surface_components::Component& c) { return c.number_of_borders > 0; });
   }
 
-  // For one way of several: may it be given up, as there is another one?
-  static Newton_options newton_options(const Solver_options& options, bool may_give_up)
+  // For one way of several: may it be given up, as there is another one? Where the last steps follow, each of which doubles the number of digits,
+  // too, half of the digits is enough; where active bounds are to be told from others, it is not.
+  static Newton_options newton_options(const Solver_options& options, const Lower_bounds& bounds, bool may_give_up)
   {
+    const double near_enough = 1e-7; // its square is less than a residual in `double` can tell
     Newton_options result;
-    result.tolerance = options.gradient_tolerance;
+    result.tolerance = options.is_estimate || !bounds.empty() ? options.gradient_tolerance : (std::max)(options.gradient_tolerance, near_enough);
     result.number_of_iterations = options.number_of_iterations;
     result.strategy = options.newton_strategy;
     result.may_give_up = may_give_up;
@@ -382,17 +386,12 @@ private:
     const std::size_t factorizations_before = linear_.number_of_factorizations();
 
     Vertex_vector u = first_guess(options);
-    result.status = move_to_fixed_factors(energy, linear_, triangulation_, conditions, u) ? Status::OK : Status::SINGULAR_PROBLEM;
+    const Starting_point start = move_to_fixed_factors(energy, linear_, triangulation_, conditions, u);
+    result.status = start.has_factor ? Status::OK : Status::SINGULAR_PROBLEM;
     if(result.status == Status::OK)
-    {
-      const Vertex_vector target = targets(conditions);
-      Newton_method newton(energy, linear_, target, newton_options(options, may_give_up), result.statistics, options.visitor, bounds);
-      result.status = newton(u);
-      has_given_up_ = newton.has_given_up();
-      if(newton.has_come_near())
-        foreseen_ = u;
-    }
-    if(result.status == Status::OK)
+      run_newton(energy, targets(conditions), options, newton_options(options, bounds, may_give_up), bounds, start.is_evaluated, u, result);
+    const bool is_found = result.status == Status::OK;
+    if(is_found)
     {
       Wide_refinement<NT> last_steps(energy, linear_, scales_, conditions, bounds, options.gradient_tolerance);
       if(options.is_estimate)
@@ -404,12 +403,31 @@ private:
       scales_.settle(conditions, result.scale_factors);
     if(options.is_estimate && result.status == Status::ITERATIONS_EXHAUSTED) // the last u may still tell what is to be changed
       Wide_refinement<NT>::begin_at(conditions, u, result.scale_factors);
-    if(is_success(result.status) || !result.scale_factors.empty())
+    if(leaves_range(energy) && (result.status == Status::ITERATIONS_EXHAUSTED || !are_factors(result.scale_factors)))
+      tell_range(u, is_found, result);
+    else if(is_success(result.status) || !result.scale_factors.empty())
       keep(result.scale_factors, conditions, u, result);
     result.statistics.number_of_factorizations = linear_.number_of_factorizations() - factorizations_before;
     result.statistics.number_of_regularized_rows = linear_.number_of_regularized_rows();
     judge(energy, options.is_estimate, result);
   }
+
+  // Where numbers range too far for the last steps, to the tolerance itself.
+  void run_newton(Refinable_energy<NT>& energy, const Vertex_vector& target, const Solver_options& options, Newton_options newton_options,
+                  const Lower_bounds& bounds, bool is_evaluated, Vertex_vector& u, Metric& result)
+  {
+    Newton_method newton(energy, linear_, target, newton_options, result.statistics, options.visitor, bounds);
+    result.status = newton(u, is_evaluated);
+    has_given_up_ = newton.has_given_up();
+    if(newton.has_come_near())
+      foreseen_ = u;
+    if(result.status != Status::OK || newton_options.tolerance <= options.gradient_tolerance || !leaves_range(energy))
+      return;
+    newton_options.tolerance = options.gradient_tolerance;
+    result.status = Newton_method(energy, linear_, target, newton_options, result.statistics, options.visitor, bounds)(u, true);
+  }
+
+  static bool leaves_range(const Abstract_energy& energy) { return has_range_of_double<NT>() && energy.ranges_far(); }
 
   // Else the matrix of a component that rests on its bounds is singular.
   void hold_one_of_each(const Lower_bounds& bounds)
@@ -444,6 +462,32 @@ private:
     return result;
   }
 
+  // Are all positive numbers with all their digits, as e^{u/2} is where it is in range?
+  static bool are_factors(const std::vector<Wide_number>& s)
+  {
+    return std::all_of(s.begin(), s.end(), [](const Wide_number& x) { return x > 0 && std::isnormal(static_cast<double>(x)); });
+  }
+
+  // What `NT` cannot hold. If Newton's method has come to its end, u by itself is the metric nevertheless.
+  static void tell_range(const Vertex_vector& u, bool is_found, Metric& result)
+  {
+    tell_extremes(u, result.statistics);
+    result.status = Status::SCALE_OUT_OF_RANGE;
+    result.amount = result.statistics.largest_u - result.statistics.least_u;
+    result.faces.clear();
+    result.scale_factors.clear();
+    if(is_found)
+      for(const double x : u)
+        result.log_scale_factors.push_back(NT(x));
+  }
+
+  static void tell_extremes(const Vertex_vector& u, Statistics& statistics)
+  {
+    const auto extremes = std::minmax_element(u.begin(), u.end());
+    statistics.least_u = *extremes.first;
+    statistics.largest_u = *extremes.second;
+  }
+
   // The logarithms of the factors; those that are at their bounds, up to rounding, are these.
   void keep(const std::vector<Wide_number>& s, const Conditions& conditions, Vertex_vector& u, Metric& result)
   {
@@ -465,9 +509,7 @@ private:
       }
       u[v] = static_cast<double>(x);
     }
-    const auto extremes = std::minmax_element(u.begin(), u.end());
-    result.statistics.least_u = *extremes.first;
-    result.statistics.largest_u = *extremes.second;
+    tell_extremes(u, result.statistics);
     last_u_ = u;
   }
 

@@ -148,7 +148,7 @@ private:
   Probe probe(Index v, double target, double u)
   {
     ++number_of_probes_;
-    this->set_scale(v, std::exp(u / 2));
+    this->set_log_scale(v, u);
     std::vector<Index> candidates;
     t_.for_each_outgoing(v, [&](Index h)
     {
@@ -158,7 +158,7 @@ private:
     });
     {
       const Timer timer(seconds_);
-      flip(this->scales(), std::move(candidates));
+      flip_here(std::move(candidates));
     }
     const std::pair<double, double> sum = this->angle_sum_at(v);
     return {u, sum.first - target, sum.second};
@@ -171,7 +171,7 @@ private:
     for(int round = 0; is_finite && round < 100; ++round)
     {
       std::vector<Index> candidates = suspects();
-      if(candidates.empty() || !flip(this->scales(), std::move(candidates)))
+      if(candidates.empty() || !flip_here(std::move(candidates)))
         break;
       is_finite = Base::evaluate(u);
     }
@@ -190,6 +190,12 @@ private:
         if(t_.is_flippable(t_.edge(h)))
           result.push_back(t_.edge(h));
     return result;
+  }
+
+  // At the factors of now.
+  bool flip_here(std::vector<Index> candidates)
+  {
+    return this->ranges_far() ? flip(this->scales_with_exponents(), std::move(candidates)) : flip(this->scales(), std::move(candidates));
   }
 
   // Returns whether anything was flipped.
@@ -252,6 +258,7 @@ public:
   const std::vector<std::uint32_t>& broken_faces() const override { return energy_.broken_faces(); }
   std::vector<double> sensitivities() const override { return energy_.sensitivities(); }
   bool has_flips() const override { return true; }
+  bool ranges_far() const override { return energy_.ranges_far(); }
   bool stays_broken(const Vertex_vector& d, double most) const override { return energy_.stays_broken(d, most); }
   std::size_t number_of_probes() const override { return energy_.number_of_probes(); }
   double relax(std::uint32_t v, double target, double x, double most, double close) override { return energy_.relax(v, target, x, most, close); }

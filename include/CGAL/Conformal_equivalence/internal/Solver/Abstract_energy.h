@@ -53,6 +53,9 @@ public:
   virtual std::vector<Index> broken_corners() const { return std::vector<Index>(); }
   virtual bool stays_broken(const Vertex_vector& /* d */, double /* most */) const { return false; }
 
+  // Were there lengths or factors at the last u that leave the range in which `double` is safe?
+  virtual bool ranges_far() const { return false; }
+
   // How often a vertex was looked at by itself, in all calls of relax().
   virtual std::size_t number_of_probes() const { return 0; }
 };

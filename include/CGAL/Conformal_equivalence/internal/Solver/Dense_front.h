@@ -9,6 +9,8 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_DENSE_FRONT_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_DENSE_FRONT_H
 
+#include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -18,32 +20,9 @@
 #include <type_traits>
 #include <utility>
 
-// Functions with AVX2 are compiled for x86-64 in any case, and called if the processor has it. What they call must become part of them.
-#if defined(__GNUC__)
-#  define CGAL_CONFORMAL_EQUIVALENCE_INLINE __attribute__((always_inline))
-#  ifdef __x86_64__
-#    define CGAL_CONFORMAL_EQUIVALENCE_AVX2 __attribute__((target("avx2,fma")))
-#  endif
-#else
-#  define CGAL_CONFORMAL_EQUIVALENCE_INLINE
-#endif
-
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-// Numbers by the vector: of so many bytes, where the compiler has vectors, else one by one.
-template <typename Number, int bytes>
-struct Vector_of
-{
-#if defined(__GNUC__)
-  typedef Number type __attribute__((vector_size(bytes)));
-  static constexpr int lanes = bytes / int(sizeof(Number));
-#else
-  typedef Number type;
-  static constexpr int lanes = 1;
-#endif
-};
 
 // What can be done with a front (see below), by vectors of so many bytes.
 template <typename Number, int bytes>
@@ -290,45 +269,34 @@ public:
   // Returns whether all pivots are positive and finite. `least_pivot` becomes the smallest one, if that is less.
   static bool eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot)
   {
-    return has_wide_vectors() ? wide_eliminate(panel, update, columns, rows, least_pivot)
+    return has_avx2_and_fma() ? wide_eliminate(panel, update, columns, rows, least_pivot)
                               : Basic_kernel::eliminate(panel, update, columns, rows, least_pivot);
   }
 
   // Solves with the panel's columns of L: x on the columns, and subtracts what they contribute to the rows below.
   static void solve_forward(const Number* panel, int columns, int rows, Number* x)
   {
-    return has_wide_vectors() ? wide_solve_forward(panel, columns, rows, x) : Basic_kernel::solve_forward(panel, columns, rows, x);
+    return has_avx2_and_fma() ? wide_solve_forward(panel, columns, rows, x) : Basic_kernel::solve_forward(panel, columns, rows, x);
   }
 
   // Solves with their transpose: x on the columns, where it is known on the rows below.
   static void solve_backward(const Number* panel, int columns, int rows, Number* x)
   {
-    return has_wide_vectors() ? wide_solve_backward(panel, columns, rows, x) : Basic_kernel::solve_backward(panel, columns, rows, x);
+    return has_avx2_and_fma() ? wide_solve_backward(panel, columns, rows, x) : Basic_kernel::solve_backward(panel, columns, rows, x);
   }
 
 private:
-#ifdef CGAL_CONFORMAL_EQUIVALENCE_AVX2
-  static bool has_wide_vectors()
-  {
-    static const bool result = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    return result;
-  }
-#else
-#  define CGAL_CONFORMAL_EQUIVALENCE_AVX2
-  static constexpr bool has_wide_vectors() { return false; }
-#endif
-
-  CGAL_CONFORMAL_EQUIVALENCE_AVX2 static bool wide_eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot)
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2_AND_FMA static bool wide_eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot)
   {
     return Wide_kernel::eliminate(panel, update, columns, rows, least_pivot);
   }
 
-  CGAL_CONFORMAL_EQUIVALENCE_AVX2 static void wide_solve_forward(const Number* panel, int columns, int rows, Number* x)
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2_AND_FMA static void wide_solve_forward(const Number* panel, int columns, int rows, Number* x)
   {
     Wide_kernel::solve_forward(panel, columns, rows, x);
   }
 
-  CGAL_CONFORMAL_EQUIVALENCE_AVX2 static void wide_solve_backward(const Number* panel, int columns, int rows, Number* x)
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2_AND_FMA static void wide_solve_backward(const Number* panel, int columns, int rows, Number* x)
   {
     Wide_kernel::solve_backward(panel, columns, rows, x);
   }
@@ -337,8 +305,5 @@ private:
 } // namespace internal
 } // namespace Conformal_equivalence
 } // namespace CGAL
-
-#undef CGAL_CONFORMAL_EQUIVALENCE_INLINE
-#undef CGAL_CONFORMAL_EQUIVALENCE_AVX2
 
 #endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_DENSE_FRONT_H

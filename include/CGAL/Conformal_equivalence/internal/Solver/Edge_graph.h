@@ -96,7 +96,14 @@ struct Edge_graph
   // A x for the edge weights w, on the free vertices that are not held; `x` may be nonzero at the others.
   Vertex_vector product(const std::vector<double>& w, const Vertex_vector& x) const
   {
-    Vertex_vector y(x.size(), 0.);
+    Vertex_vector y;
+    multiply(w, x, y);
+    return y;
+  }
+
+  void multiply(const std::vector<double>& w, const Vertex_vector& x, Vertex_vector& y) const
+  {
+    y.assign(x.size(), 0.);
     for(std::size_t e = 0; e < ends.size(); ++e)
     {
       const double flux = w[e] * (x[ends[e].first] - x[ends[e].second]) / 2;
@@ -104,7 +111,6 @@ struct Edge_graph
       y[ends[e].second] -= flux;
     }
     clear_fixed(y);
-    return y;
   }
 
   Vertex_vector diagonal(const std::vector<double>& w) const

@@ -111,21 +111,28 @@ public:
 
 private:
   template <typename Function>
-  static bool replace(std::vector<double>& b, const Function& solve)
+  bool replace(std::vector<double>& b, const Function& solve)
   {
-    Vector right(int(b.size())), solution(int(b.size()));
+    if(!right_ || size_ != b.size())
+    {
+      right_ = std::make_unique<Vector>(int(b.size()));
+      solution_ = std::make_unique<Vector>(int(b.size()));
+      size_ = b.size();
+    }
     for(std::size_t i = 0; i < b.size(); ++i)
-      right[int(i)] = b[i];
-    if(!solve(right, solution))
+      (*right_)[int(i)] = b[i];
+    if(!solve(*right_, *solution_))
       return false;
     for(std::size_t i = 0; i < b.size(); ++i)
-      b[i] = solution[int(i)];
+      b[i] = (*solution_)[int(i)];
     return true;
   }
 
   SolverTraits traits_;
   std::unique_ptr<Matrix> matrix_; // such traits may refer to it
   bool is_analyzed_ = false;
+  std::unique_ptr<Vector> right_, solution_; // allocated once for all systems of `size_` unknowns
+  std::size_t size_ = 0;
 };
 
 template <typename SolverTraits>

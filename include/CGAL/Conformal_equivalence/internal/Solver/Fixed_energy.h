@@ -79,6 +79,7 @@ public:
   const std::vector<std::uint32_t>& broken_faces() const override { return energy_.broken_faces(); }
   std::vector<double> sensitivities() const override { return energy_.sensitivities(); }
   bool has_flips() const override { return false; }
+  bool ranges_far() const override { return energy_.ranges_far(); }
   std::vector<std::uint32_t> broken_corners() const override { return energy_.broken_corners(); }
   bool stays_broken(const Vertex_vector& d, double most) const override { return energy_.stays_broken(d, most); }
   void minimize_around(const std::vector<std::uint32_t>& seeds, const Edge_graph& graph, const Vertex_vector& target, Vertex_vector& u) override

@@ -198,7 +198,8 @@ public:
     std::size_t rows = 0;
     const Vertex_vector shift = regularization(graph_, w, rows);
     const double goal = tolerance * largest_entry(b);
-    Vertex_vector r = b, z, p, sizes; // sizes of r
+    r_ = b;
+    Vertex_vector sizes; // of the residual
     double rz = 0;
     x.assign(b.size(), 0.);
     converged = graph_.number_of_free == 0 || goal == 0;
@@ -207,34 +208,34 @@ public:
     std::size_t iteration = 0;
     for(; !converged && iteration < most; ++iteration)
     {
-      if(!precondition(r, z))
+      if(!precondition(r_, z_))
         break;
-      const double rz_new = dot(r, z);
+      const double rz_new = dot(r_, z_);
       if(iteration == 0)
-        p = z;
+        p_ = z_;
       else
-        for(std::size_t v = 0; v < p.size(); ++v)
-          p[v] = z[v] + rz_new / rz * p[v];
+        for(std::size_t v = 0; v < p_.size(); ++v)
+          p_[v] = z_[v] + rz_new / rz * p_[v];
       rz = rz_new;
 
-      Vertex_vector q = graph_.product(w, p);
+      graph_.multiply(w, p_, q_);
       if(rows > 0)
-        for(std::size_t v = 0; v < q.size(); ++v)
-          q[v] += shift[v] * p[v];
-      const double curvature = dot(p, q);
+        for(std::size_t v = 0; v < q_.size(); ++v)
+          q_[v] += shift[v] * p_[v];
+      const double curvature = dot(p_, q_);
       if(!(curvature > 1e-14 * std::abs(rz))) // flat: nothing is known about this direction
       {
         if(iteration == 0)
-          x = p;
+          x = p_;
         return iteration + 1;
       }
       const double step = rz / curvature;
       for(std::size_t v = 0; v < x.size(); ++v)
       {
-        x[v] += step * p[v];
-        r[v] -= step * q[v];
+        x[v] += step * p_[v];
+        r_[v] -= step * q_[v];
       }
-      sizes.push_back(largest_entry(r));
+      sizes.push_back(largest_entry(r_));
       converged = sizes.back() <= goal;
       if(may_give_up && is_too_slow(sizes, goal, most))
         return iteration + 1;
@@ -255,20 +256,20 @@ private:
 
   // The free vertices that are not held become what `replace` makes of the free ones.
   template <typename Function>
-  bool apply_factor(const Vertex_vector& b, Vertex_vector& x, const Function& replace) const
+  bool apply_factor(const Vertex_vector& b, Vertex_vector& x, const Function& replace)
   {
     x.assign(b.size(), 0.);
     if(graph_.number_of_free == 0)
       return true;
-    std::vector<double> free(graph_.number_of_free);
+    free_.resize(graph_.number_of_free);
     for(std::size_t v = 0; v < b.size(); ++v)
       if(graph_.is_free(std::uint32_t(v)))
-        free[graph_.free_index[v]] = b[v];
-    if(!replace(free))
+        free_[graph_.free_index[v]] = b[v];
+    if(!replace(free_))
       return false;
     for(std::size_t v = 0; v < b.size(); ++v)
       if(graph_.is_free(std::uint32_t(v)) && !graph_.is_held(std::uint32_t(v)))
-        x[v] = free[graph_.free_index[v]];
+        x[v] = free_[graph_.free_index[v]];
     return true;
   }
 
@@ -289,6 +290,8 @@ private:
   Edge_graph graph_;
   std::unique_ptr<Factorization> factor_;
   bool has_factor_ = false;
+  Vertex_vector r_, z_, p_, q_; // of conjugate gradients, which allocate them once
+  std::vector<double> free_;    // by free vertex: what is solved for
   std::size_t number_of_factorizations_ = 0, number_of_regularized_rows_ = 0;
 };
 

@@ -24,6 +24,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Nonlinear_elimination.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Trust_region.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/line_search.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
@@ -58,10 +59,12 @@ public:
   {}
 
   // Improves u until the residual is within the tolerance or the rounding floor.
-  // Returns OK, ITERATIONS_EXHAUSTED, SINGULAR_PROBLEM or STOPPED_BY_VISITOR.
-  Status operator()(Vertex_vector& u)
+  // Returns OK, ITERATIONS_EXHAUSTED, SINGULAR_PROBLEM or STOPPED_BY_VISITOR. If `is_evaluated`, the energy is at u already.
+  Status operator()(Vertex_vector& u, bool is_evaluated = false)
   {
-    if(!lift(u) || !evaluate(u, residual_))
+    if(is_evaluated && active_set_.empty())
+      residual_at_.get(residual_);
+    else if(!lift(u) || !evaluate(u, residual_))
       return Status::ITERATIONS_EXHAUSTED;
     active_set_.hold_active(u, residual_, 0);
     for(std::size_t iteration = 0; ; ++iteration)
@@ -270,17 +273,27 @@ private:
         slope_there = (dot(r, trial) - dot(r, u)) / t;
       if(slope_there >= -tolerable_rise() * slope)
       {
-        // a hundredth of a step, without much effect: u is to go very far
-        reach_ = first > 0.01 || t < first || slope_there < 0.5 * slope ? least_reach : 2 * reach_;
+        adapt_reach(first, t < first, slope_there / slope);
         u.swap(trial);
         residual_.swap(r);
         return true;
       }
-      // the zero of the secant through both slopes, safeguarded
-      const double secant = is_finite && slope_there < slope ? slope / (slope - slope_there) : 0.1; // else too far
-      t *= (std::min)(0.7, (std::max)(0.1, secant));
+      t = shorter_step(t, slope, slope_there);
     }
     return begin_trust_region(u);
+  }
+
+  // Where u is to go very far, as on a long strip, steps that are cut short leave E falling at nearly the same pace. If that is seen
+  // for a while, or if they are but a hundredth of what they were, the next one may be longer.
+  void adapt_reach(double part, bool is_cut_further, double remaining_slope)
+  {
+    const int a_while = 3;
+    const bool is_far_from_end = part < 1 && !is_cut_further && remaining_slope > 0.25;
+    short_steps_ = is_far_from_end ? short_steps_ + 1 : 0;
+    if(is_far_from_end && (short_steps_ > a_while || (part <= 0.01 && remaining_slope > 0.5)))
+      reach_ *= 2;
+    else if(part == 1 || is_cut_further || remaining_slope <= 0)
+      reach_ = least_reach;
   }
 
   // The factor for the trust region is that of the first metric again: a Hessian at broken triangles makes a
@@ -347,6 +360,7 @@ private:
   std::size_t last_gain_ = 0;                              // the iteration when it was found
   static constexpr double least_reach = 5;
   double reach_ = least_reach;        // of a step in u, where it is bounded
+  int short_steps_ = 0;               // that were cut to the reach, one after the other
   Vertex_vector landmark_;  // u where the trust region was some steps ago
   std::size_t landmark_iteration_ = 0;
   bool has_given_up_ = false;

@@ -37,10 +37,16 @@ public:
   {
     ++statistics_.number_of_evaluations;
     const bool is_finite = energy_.evaluate(u);
-    r.resize(u.size());
-    for(std::size_t v = 0; v < u.size(); ++v)
-      r[v] = graph_.is_free(std::uint32_t(v)) ? energy_.angle_sums()[v] - target_[v] : 0;
+    get(r);
     return is_finite;
+  }
+
+  // r where the energy is.
+  void get(Vertex_vector& r) const
+  {
+    r.resize(target_.size());
+    for(std::size_t v = 0; v < r.size(); ++v)
+      r[v] = graph_.is_free(std::uint32_t(v)) ? energy_.angle_sums()[v] - target_[v] : 0;
   }
 
   Abstract_energy& energy() { return energy_; }

@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Wide_factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/line_search.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <CGAL/number_type_config.h>
@@ -168,7 +169,7 @@ private:
   void move_to(const Vertex_patch& patch, const Vertex_vector& x)
   {
     for(std::size_t i = 0; i < x.size(); ++i)
-      this->set_scale(patch.vertices[i], std::exp(x[i] / 2));
+      this->set_log_scale(patch.vertices[i], x[i]);
   }
 
   Vertex_vector residual_on(const Vertex_patch& patch, const Vertex_vector& target) const
@@ -178,9 +179,9 @@ private:
       result.push_back(-target[v]);
     for(std::size_t i = 0; i < patch.faces.size(); ++i)
     {
-      const std::array<double, 3> l = this->scaled_lengths(patch.faces[i]);
+      const std::array<double, 3> l = this->sides_of(patch.faces[i]);
       const Incircle_form<double> triangle(l[0], l[1], l[2]);
-      const bool is_broken = !triangle.is_triangle || !(triangle.r > 0);
+      const bool is_broken = triangle.is_broken();
       for(int k = 0; k < 3; ++k)
         if(patch.corners[i][k] != Triangulation::null_index)
           result[patch.corners[i][k]] += !is_broken ? angle(triangle, k) : k == longest_side(l[0], l[1], l[2]) ? CGAL_PI : 0;
@@ -193,9 +194,9 @@ private:
     Patch_matrix result;
     for(std::size_t i = 0; i < patch.faces.size(); ++i)
     {
-      const std::array<double, 3> l = this->scaled_lengths(patch.faces[i]);
+      const std::array<double, 3> l = this->sides_of(patch.faces[i]);
       const Incircle_form<double> triangle(l[0], l[1], l[2]);
-      if(!triangle.is_triangle || !(triangle.r > 0))
+      if(triangle.is_broken())
         continue; // its cotangents count as 0
       for(int k = 0; k < 3; ++k)
         add_weight(patch.corners[i][(k + 1) % 3], patch.corners[i][(k + 2) % 3], cotangent(triangle, k) / 2, result);
@@ -241,8 +242,7 @@ private:
         r.swap(r_there);
         return true;
       }
-      const double secant = slope_there < slope ? slope / (slope - slope_there) : 0.1;
-      t *= (std::min)(0.7, (std::max)(0.1, secant));
+      t = shorter_step(t, slope, slope_there);
     }
     move_to(patch, x);
     return false;

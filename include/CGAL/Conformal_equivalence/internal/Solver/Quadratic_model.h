@@ -17,9 +17,9 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The iterations of conjugate gradients after which the kept factor counts as a bad approximation: a new one costs about as much as
-// fifteen iterations (with a factor by AMD, of 1e4 to 1e6 vertices).
-constexpr std::size_t iterations_worth_a_factorization = 15;
+// The iterations of conjugate gradients after which the kept factor counts as a bad approximation: a new one of the same pattern costs about as
+// much as eight iterations (with the multifrontal factor, of 1e4 to 1e6 vertices).
+constexpr std::size_t iterations_worth_a_factorization = 8;
 
 class Quadratic_model
 {

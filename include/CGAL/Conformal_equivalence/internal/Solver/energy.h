@@ -11,18 +11,29 @@
 //
 // E is C^1 and convex; where a triangle inequality fails, its angles are pi, 0, 0
 // and its cotangents count as 0. Its value is found in conformal_energy.h.
+//
+// Only the ratios of the three sides of a triangle matter. So u may range beyond what e^{u/2} can be in the number type, as it does on long
+// strips and after flips of steep surfaces: there a factor, or a length, is a mantissa with its binary exponent apart.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ENERGY_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ENERGY_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Number_constants.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Incircle_vectors.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+
+#include <CGAL/number_type_config.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -42,7 +53,7 @@ public:
   // multiplied by a power of two that brings them near 1.
   explicit Conformal_energy(const Triangulation& t, bool normalize = false)
     : t_(t), scale_(t.number_of_vertices(), NT(1)),
-      angle_sum_(t.number_of_vertices()), weight_(t.number_of_edges()), sum_(t.number_of_vertices())
+      angle_sum_(t.number_of_vertices()), weight_(t.number_of_edges()), product_(sums_up_angles ? 0 : t.number_of_vertices())
   {
     exponent_ = normalize ? middle_exponent() : 0;
     length_.resize(t.number_of_edges());
@@ -53,24 +64,27 @@ public:
   // The length of `e` has changed.
   void update_length(Index e)
   {
+    using std::frexp;
     using std::ldexp;
     const Length& l = t_.length(e);
-    length_[e] = static_cast<NT>(exponent_ == 0 ? l : Length(ldexp(l, -exponent_)));
+    int exponent = exponent_;
+    if(l > 0 && l - l == Length(0)) // neither 0 nor no number
+      (void) frexp(l, &exponent);
+    const int apart = set_apart(exponent - exponent_, e, t_.number_of_edges(), length_exponent_);
+    length_[e] = static_cast<NT>(exponent_ + apart == 0 ? l : Length(ldexp(l, -(exponent_ + apart))));
   }
 
   // moves to u: computes angle sums and edge weights there.
   // Returns false if a length overflows, underflows or is no number.
   bool evaluate(const std::vector<NT>& u)
   {
-    using std::exp;
+    scale_exponent_.clear();
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      scale_[v] = exp(u[v] / 2);
+      set_log_scale(v, u[v]);
     clear();
-    bool is_finite = true;
-    for(Index f = 0; f < t_.number_of_faces(); ++f)
-      is_finite = add_triangle(3 * f) && is_finite;
-    for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      angle_sum_[v] = sum_[v].radians();
+    const bool is_finite = add_all_triangles();
+    for(std::size_t v = 0; v < product_.size(); ++v)
+      angle_sum_[v] = product_[v].radians();
     return is_finite;
   }
 
@@ -85,9 +99,9 @@ public:
     NT slope(0);
     t_.for_each_outgoing(v, [&](Index h)
     {
-      const std::array<NT, 3> l = {{scaled_length(h), scaled_length(t_.next(h)), scaled_length(t_.previous(h))}};
+      const std::array<NT, 3> l = sides_from(h);
       const Incircle_form<NT> triangle(l[0], l[1], l[2]);
-      if(triangle.is_triangle && triangle.r > 0)
+      if(!triangle.is_broken())
       {
         const NT unit = 1 / triangle.s;
         sum.add(triangle.tangent[1] * unit, triangle.r * unit);
@@ -108,8 +122,9 @@ public:
     std::vector<NT> result(t_.number_of_vertices(), NT(0));
     for(Index h = 0; h < t_.number_of_halfedges(); h += 3)
     {
-      const Incircle_form<NT> triangle(scaled_length(h), scaled_length(h + 1), scaled_length(h + 2));
-      if(!triangle.is_triangle || !(triangle.r > 0))
+      const std::array<NT, 3> l = sides_from(h);
+      const Incircle_form<NT> triangle(l[0], l[1], l[2]);
+      if(triangle.is_broken())
         continue;
       std::array<NT, 3> c;
       for(int k = 0; k < 3; ++k)
@@ -136,14 +151,23 @@ public:
     return std::any_of(broken_.begin(), broken_.end(), [&](Index f) { return is_too_long_after(f, d, most); });
   }
 
-  const NT& scale(Index v) const { return scale_[v]; }
+  // e^{u/2}, by vertex. \pre `!ranges_far()`
   const std::vector<NT>& scales() const { return scale_; }
-  NT scaled_length(Index h) const
+
+  // Are there factors or lengths beyond the range in which they are plain numbers?
+  bool ranges_far() const { return !scale_exponent_.empty() || !length_exponent_.empty(); }
+
+  // e^{u/2}, by vertex, whatever u is.
+  std::vector<Scaled_number<NT> > scales_with_exponents() const
   {
-    return scale_[t_.origin(h)] * length_[t_.edge(h)] * scale_[t_.target(h)];
+    std::vector<Scaled_number<NT> > result;
+    for(std::size_t v = 0; v < scale_.size(); ++v)
+      result.emplace_back(scale_[v], exponent_of(v, scale_exponent_));
+    return result;
   }
 
-  std::array<NT, 3> scaled_lengths(Index f) const { return {{scaled_length(3 * f), scaled_length(3 * f + 1), scaled_length(3 * f + 2)}}; }
+  // The scaled sides of the face `f`, in the order of its halfedges, up to a power of two for all three.
+  std::array<NT, 3> sides_of(Index f) const { return sides_from(3 * f); }
 
   // Hess E . d at the u last evaluated, equation (10).
   std::vector<NT> hessian_product(const std::vector<NT>& d) const
@@ -160,17 +184,79 @@ public:
   }
 
 protected:
-  // Nothing but the factor: the next evaluation finds the rest.
-  void set_scale(Index v, const NT& scale) { scale_[v] = scale; }
+  // Arc tangents of `double` are cheap by vectors; of wider numbers, one for each vertex is enough.
+  static constexpr bool sums_up_angles = std::is_same<NT, double>::value;
+
+  // Nothing but the factor e^{u/2}: the next evaluation finds the rest.
+  void set_log_scale(Index v, const NT& u)
+  {
+    using std::exp;
+    const double half = static_cast<double>(u) / 2, farthest = 1e8; // beyond that u is of no use, and an exponent might overflow
+    const double exponent = std::abs(half) < farthest ? std::round(half / double(ln_2())) : 0;
+    const int apart = set_apart(int(exponent), v, t_.number_of_vertices(), scale_exponent_);
+    scale_[v] = exp(apart == 0 ? NT(u / 2) : NT(u / 2 - apart * ln_2()));
+  }
 
 private:
+  static NT ln_2() { return Number_constants<NT>::ln_2(); }
+
+  // The exponent `exponent` of the `i`-th of `size` numbers is written to `apart` if three such numbers may have a product out of range. Returns by
+  // which power of two the number is to be divided.
+  static int set_apart(int exponent, std::size_t i, std::size_t size, std::vector<int>& apart)
+  {
+    const int largest = 300; // of 1023
+    if(std::abs(exponent) <= largest)
+      exponent = 0;
+    if(exponent != 0 && apart.empty())
+      apart.assign(size, 0);
+    if(!apart.empty())
+      apart[i] = exponent;
+    return exponent;
+  }
+
+  static int exponent_of(std::size_t i, const std::vector<int>& apart) { return apart.empty() ? 0 : apart[i]; }
+
+  // The sides of the triangle of `h`, beginning with that of `h`.
+  std::array<NT, 3> sides_from(Index h) const
+  {
+    const Index next = Triangulation::next(h), previous = Triangulation::previous(h);
+    const Index i = t_.origin(h), j = t_.origin(next), k = t_.origin(previous);
+    std::array<NT, 3> result = {{scale_[i] * length_[t_.edge(h)] * scale_[j], scale_[j] * length_[t_.edge(next)] * scale_[k],
+                                 scale_[k] * length_[t_.edge(previous)] * scale_[i]}};
+    if(ranges_far())
+      equalize({{exponent_of_side(i, h, j), exponent_of_side(j, next, k), exponent_of_side(k, previous, i)}}, result);
+    return result;
+  }
+
+  // What is set apart of the side of `h`, from i to j.
+  int exponent_of_side(Index i, Index h, Index j) const
+  {
+    return exponent_of(i, scale_exponent_) + exponent_of(t_.edge(h), length_exponent_) + exponent_of(j, scale_exponent_);
+  }
+
+  // Multiplies sides by 2^`apart`, and all of them by a power of two that brings the longest near 1. What is as good as 0 beside it remains
+  // positive.
+  static void equalize(const std::array<int, 3>& apart, std::array<NT, 3>& sides)
+  {
+    using std::ldexp;
+    std::array<int, 3> exponents;
+    for(int k = 0; k < 3; ++k)
+    {
+      sides[k] = mantissa(sides[k], exponents[k]);
+      exponents[k] += apart[k];
+    }
+    const int longest = *std::max_element(exponents.begin(), exponents.end()), least = -1000;
+    for(int k = 0; k < 3; ++k)
+      sides[k] = ldexp(sides[k], (std::max)(exponents[k] - longest, least));
+  }
+
   // The long side of `f` against the two others, each at its longest. Both are compared with the long one: the change of u at the end that they
   // have in common with it cancels.
   bool is_too_long_after(Index f, const std::vector<NT>& d, const NT& most) const
   {
     using std::abs;
     using std::exp;
-    const std::array<NT, 3> l = scaled_lengths(f);
+    const std::array<NT, 3> l = sides_of(f);
     const int k = longest_side(l[0], l[1], l[2]), next = (k + 1) % 3, previous = (k + 2) % 3;
     const auto growth = [&](int end) { return NT(exp(most * abs(d[t_.origin(3 * f + previous)] - d[t_.origin(3 * f + end)]) / 2)); };
     return l[next] * growth(k) + l[previous] * growth(next) < l[k];
@@ -195,37 +281,117 @@ private:
 
   void clear()
   {
-    std::fill(sum_.begin(), sum_.end(), Angle_sum<NT>());
+    std::fill(product_.begin(), product_.end(), Angle_sum<NT>());
+    std::fill(angle_sum_.begin(), angle_sum_.end(), NT(0));
     std::fill(weight_.begin(), weight_.end(), NT(0));
     broken_.clear();
+  }
+
+  // Adds all triangles, in their order; returns whether their lengths are positive and finite. Vectors of any width give the same bits, if the
+  // program is not compiled for fused multiplications.
+  bool add_all_triangles()
+  {
+    if constexpr(sums_up_angles)
+      if(!ranges_far())
+        return has_avx2() ? add_all_with_avx2() : add_all_by_vectors<16>();
+    return add_triangles(0);
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 bool add_all_with_avx2() { return add_all_by_vectors<32>(); }
+
+  template <int bytes>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE bool add_all_by_vectors()
+  {
+    typedef Incircle_vectors<bytes> Triangles;
+    Triangles triangles;
+    bool is_finite = true;
+    Index f = 0;
+    for(; f + Triangles::lanes <= t_.number_of_faces(); f += Triangles::lanes)
+    {
+      compute(f, triangles, typename Triangles::Lanes());
+      for(int i = 0; i < Triangles::lanes; ++i)
+        if(triangles.is_plain[i] != 0)
+          add_corners(3 * (f + Index(i)), i, triangles);
+        else
+          is_finite = add_triangle(3 * (f + Index(i))) && is_finite;
+    }
+    return add_triangles(f) && is_finite;
+  }
+
+  template <typename Triangles, int... i>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(Index f, Triangles& triangles, std::integer_sequence<int, i...>) const
+  {
+    typedef typename Triangles::Vector Vector;
+    const Index h = 3 * f;
+    const Vector s[3] = {{scale_[t_.origin(h + 3 * i)]...}, {scale_[t_.origin(h + 3 * i + 1)]...}, {scale_[t_.origin(h + 3 * i + 2)]...}},
+                 l[3] = {{length_[t_.edge(h + 3 * i)]...}, {length_[t_.edge(h + 3 * i + 1)]...}, {length_[t_.edge(h + 3 * i + 2)]...}};
+    triangles.compute(s[0] * l[0] * s[1], s[1] * l[1] * s[2], s[2] * l[2] * s[0]);
+  }
+
+  template <typename Triangles>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void add_corners(Index h, int i, const Triangles& triangles)
+  {
+    for(Index k = 0; k < 3; ++k)
+    {
+      angle_sum_[t_.apex(h + k)] += triangles.angle[k][i];
+      weight_[t_.edge(h + k)] += triangles.cotangent[k][i];
+    }
+  }
+
+  // The same for those from f on, one by one.
+  bool add_triangles(Index f)
+  {
+    bool is_finite = true;
+    for(; f < t_.number_of_faces(); ++f)
+      is_finite = add_triangle(3 * f) && is_finite;
+    return is_finite;
   }
 
   // Adds the triangle of h; returns whether its lengths are positive and finite.
   bool add_triangle(Index h)
   {
-    const std::array<NT, 3> l = {{scaled_length(h), scaled_length(h + 1), scaled_length(h + 2)}};
+    const std::array<NT, 3> l = sides_from(h);
     const Incircle_form<NT> triangle(l[0], l[1], l[2]);
-    if(triangle.is_triangle && triangle.r > 0)
+    if(!triangle.is_broken())
     {
-      const NT unit = 1 / triangle.s, y = triangle.r * unit;
       for(int k = 0; k < 3; ++k)
       {
-        sum_[t_.apex(h + k)].add(triangle.tangent[k] * unit, y);
+        add_angle(t_.apex(h + k), triangle, k);
         weight_[t_.edge(h + k)] += cotangent(triangle, k);
       }
     }
     else
     {
       broken_.push_back(Triangulation::face(h));
-      sum_[t_.apex(h + longest_side(l[0], l[1], l[2]))].add_straight();
+      add_straight_angle(t_.apex(h + longest_side(l[0], l[1], l[2])));
     }
     return l[0] > 0 && l[1] > 0 && l[2] > 0 && triangle.s - triangle.s == NT(0);
+  }
+
+  void add_angle(Index v, const Incircle_form<NT>& triangle, int k)
+  {
+    if constexpr(sums_up_angles)
+      angle_sum_[v] += angle(triangle, k);
+    else
+    {
+      const NT unit = 1 / triangle.s;
+      product_[v].add(triangle.tangent[k] * unit, triangle.r * unit);
+    }
+  }
+
+  void add_straight_angle(Index v)
+  {
+    if constexpr(sums_up_angles)
+      angle_sum_[v] += CGAL_PI;
+    else
+      product_[v].add_straight();
   }
 
   const Triangulation& t_;
   int exponent_ = 0; // lengths are divided by this power of two
   std::vector<NT> length_, scale_, angle_sum_, weight_;
-  std::vector<Angle_sum<NT> > sum_;
+  std::vector<int> length_exponent_, scale_exponent_; // set apart from these; empty where there are none
+  std::vector<Angle_sum<NT> > product_; // while it is formed, where angles are not summed up
   std::vector<Index> broken_;
 };
 

@@ -18,44 +18,48 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// Is the Hessian at u one that serves? Among broken triangles that at u = 0 is the better one.
-inline bool is_good_for_factor(Abstract_energy& energy, const Vertex_vector& u)
+struct Starting_point
 {
-  return largest_entry(u) == 0 || (energy.evaluate(u) && energy.broken_faces().empty());
-}
+  bool has_factor = true;    // if one was needed
+  bool is_evaluated = false; // is the energy at u?
+};
 
 // Gives the fixed vertices their u, and moves the others along, by the harmonic extension of these steps. The factor, if there is none
-// yet, is that of the Hessian at u = 0, unless u need not be moved. Returns whether there is one, if one was needed.
+// yet, is that of the Hessian at u = 0, unless u need not be moved and no triangle is broken there: then the first Newton step
+// will factorize.
 template <typename NT>
-bool move_to_fixed_factors(Abstract_energy& energy, Laplacian_solver& linear, const Intrinsic_triangulation<NT>& t,
-                           const Conformal_conditions<NT>& conditions, Vertex_vector& u)
+Starting_point move_to_fixed_factors(Abstract_energy& energy, Laplacian_solver& linear, const Intrinsic_triangulation<NT>& t,
+                                     const Conformal_conditions<NT>& conditions, Vertex_vector& u)
 {
   Vertex_vector step(u.size(), 0.); // at the fixed vertices
   for(std::uint32_t v = 0; v < u.size(); ++v)
     if(conditions.is_fixed(v) && !t.is_isolated_vertex(v))
       step[v] = static_cast<double>(conditions.log_scale_factor(v)) - u[v];
+  Starting_point result;
   const bool is_moved = largest_entry(step) > 0;
-  if(!is_moved && (linear.has_factor() || is_good_for_factor(energy, u)))
-    return true; // the first Newton step will factorize
+  if(!is_moved && (linear.has_factor() || largest_entry(u) == 0))
+    return result;
+  result.is_evaluated = !is_moved && energy.evaluate(u) && energy.broken_faces().empty();
+  if(result.is_evaluated)
+    return result;
   if(!linear.has_factor())
   {
     energy.evaluate(Vertex_vector(u.size(), 0.));
-    if(!linear.factorize(energy.weights()))
-      return false;
+    result.has_factor = linear.factorize(energy.weights());
   }
-  if(!is_moved)
-    return true;
+  if(!result.has_factor || !is_moved)
+    return result;
 
   Vertex_vector pull, extension;
   energy.evaluate(Vertex_vector(u.size(), 0.));
   pull = linear.graph().product(energy.weights(), step);
   for(double& x : pull)
     x = -x;
-  if(!linear.precondition(pull, extension))
-    return false;
-  for(std::uint32_t v = 0; v < u.size(); ++v)
-    u[v] += step[v] + extension[v];
-  return true;
+  result.has_factor = linear.precondition(pull, extension);
+  if(result.has_factor)
+    for(std::uint32_t v = 0; v < u.size(); ++v)
+      u[v] += step[v] + extension[v];
+  return result;
 }
 
 } // namespace internal

@@ -110,7 +110,8 @@ private:
     if(polygon(options.retriangulation))
     {
       polyhedron = std::move(polygon.polyhedron);
-      normalize(polyhedron, kind);
+      if(is_success(polyhedron.status))
+        normalize(polyhedron, kind);
     }
     else
     {

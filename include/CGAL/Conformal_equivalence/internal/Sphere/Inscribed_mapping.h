@@ -80,7 +80,8 @@ private:
     if(retriangulation != Retriangulation::ALWAYS && !has_degenerate_faces)
     {
       result = on_fixed_triangulation(apex, retriangulation == Retriangulation::NEVER, accept);
-      if(retriangulation == Retriangulation::NEVER || is_success(result.status) || !is_worth_another_try(result.status))
+      const bool may_be_helped_by_flips = is_worth_another_try(result.status) || result.status == Status::SCALE_OUT_OF_RANGE;
+      if(retriangulation == Retriangulation::NEVER || is_success(result.status) || !may_be_helped_by_flips)
       {
         result.statistics.seconds.solve = stopwatch.seconds();
         return result;

@@ -6,6 +6,9 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron.h>
@@ -14,9 +17,12 @@
 #include <CGAL/Conformal_equivalence/options.h>
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -40,8 +46,8 @@ public:
   // The references are kept.
   Inscribed_polygon(const Triangulation& surface, const Surface_double<NT>& twofold) : surface_(surface), twofold_(twofold) {}
 
-  // Finds the vectors, not normalized. Returns whether this is such a surface, and, where edges are flipped first, whether there are still all border
-  // edges, so that it can be developed.
+  // Finds the vectors, not normalized, or says by the status of `polyhedron` that they range too far. Returns whether this is such a surface, and,
+  // where edges are flipped first, whether there are still all border edges, so that it can be developed.
   bool operator()(Retriangulation retriangulation);
 
 private:
@@ -70,22 +76,70 @@ private:
     return twofold_.lost_border_edges(surface_, polyhedron.triangulation, polyhedron.flips).empty() || polyhedron.flips.empty();
   }
 
+  // Along a strip vectors grow exponentially: until all are known, and how far they range, each has a power of two of its own.
   void place()
   {
     const Triangulation& t = polyhedron.triangulation;
     Vectors& vectors = polyhedron.vectors;
     vectors.assign(t.number_of_vertices(), Light_vector<Wide>{{Wide(0), Wide(0), Wide(0), Wide(0)}});
+    exponents_.assign(t.number_of_vertices(), 0);
+    std::vector<char> is_placed(t.number_of_vertices(), 0);
     place_first_triangle(vectors);
+    for(Index h = 0; h < 3; ++h)
+      is_placed[t.origin(h)] = 1;
     std::vector<Index> waiting(1, 0);
     for(std::size_t n = 0; n < waiting.size(); ++n)
       for(Index h = 3 * waiting[n]; h < 3 * waiting[n] + 3; ++h)
       {
         const Index g = t.twin(h);
-        if(g == t.null_index || vectors[t.apex(g)][3] > 0)
+        if(g == t.null_index || is_placed[t.apex(g)])
           continue;
-        vectors[t.apex(g)] = vector_across(h);
+        is_placed[t.apex(g)] = 1;
+        place_across(h, t.apex(g));
         waiting.push_back(t.face(g));
       }
+    join_exponents(is_placed);
+  }
+
+  void place_across(Index h, Index v)
+  {
+    const Triangulation& t = polyhedron.triangulation;
+    const std::array<Index, 3> corners = {{t.origin(h), t.target(h), t.apex(h)}};
+    const int largest = (std::max)({exponents_[corners[0]], exponents_[corners[1]], exponents_[corners[2]]});
+    const auto vector = [&](int k) { return multiplied(polyhedron.vectors[corners[k]], exponents_[corners[k]] - largest); };
+    const Light_vector<Wide> result = vector_across(h, vector(0), vector(1), vector(2));
+    int exponent = 0;
+    (void) mantissa(result[3], exponent);
+    polyhedron.vectors[v] = multiplied(result, -exponent);
+    exponents_[v] = largest + exponent;
+  }
+
+  static Light_vector<Wide> multiplied(const Light_vector<Wide>& x, int exponent)
+  {
+    using std::ldexp;
+    return {{Wide(ldexp(x[0], exponent)), Wide(ldexp(x[1], exponent)), Wide(ldexp(x[2], exponent)), Wide(ldexp(x[3], exponent))}};
+  }
+
+  // Gives the vectors that were placed their powers of two, unless they range too far.
+  void join_exponents(const std::vector<char>& is_placed)
+  {
+    int least = (std::numeric_limits<int>::max)(), largest = (std::numeric_limits<int>::min)();
+    for(std::size_t v = 0; v < exponents_.size(); ++v)
+      if(is_placed[v])
+      {
+        least = (std::min)(least, exponents_[v]);
+        largest = (std::max)(largest, exponents_[v]);
+      }
+    const int farthest = 450; // of 1023: products of two are in range, too
+    if(has_range_of_double<Wide>() && (std::max)(largest, -least) > farthest)
+    {
+      polyhedron.status = Status::SCALE_OUT_OF_RANGE;
+      polyhedron.amount = std::log(2.) * (largest - least);
+      return;
+    }
+    for(std::size_t v = 0; v < exponents_.size(); ++v)
+      if(is_placed[v])
+        polyhedron.vectors[v] = multiplied(polyhedron.vectors[v], exponents_[v]);
   }
 
   // The corners 0, 1, 2 of the first face at 0, 1 and infinity.
@@ -101,12 +155,10 @@ private:
   }
 
   // The vertex l of the other triangle at the side ij of ijk: its products with the vectors of i and j are given, that with k by Ptolemy's theorem.
-  Light_vector<Wide> vector_across(Index h) const
+  Light_vector<Wide> vector_across(Index h, const Light_vector<Wide>& i, const Light_vector<Wide>& j, const Light_vector<Wide>& k) const
   {
     const Triangulation& t = polyhedron.triangulation;
     const Index g = t.twin(h);
-    const Vectors& v = polyhedron.vectors;
-    const Light_vector<Wide> &i = v[t.origin(h)], &j = v[t.target(h)], &k = v[t.apex(h)];
     const Wide ij(t.halfedge_length(h)), jk(t.halfedge_length(t.next(h))), ki(t.halfedge_length(t.previous(h)));
     const Wide il(t.halfedge_length(t.next(g))), lj(t.halfedge_length(t.previous(g)));
     const Wide at_i = lj / ij * (il / ki * (jk / ij) + lj / ij), at_j = il / ij * (il / ij + lj / jk * (ki / ij)), at_k = il / ki * (lj / jk);
@@ -125,6 +177,7 @@ private:
 
   const Triangulation& surface_;
   const Surface_double<NT>& twofold_;
+  std::vector<int> exponents_; // of the vectors, while they are found
 };
 
 template <typename NT>

@@ -28,6 +28,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -58,20 +59,39 @@ std::array<NT, 5> quad_lengths(const Intrinsic_triangulation<NT>& t, const std::
   return {{t.length(x[0]), t.length(x[1]), t.length(x[2]), t.length(x[3]), t.length(x[4])}};
 }
 
-// the quadrilateral around the interior edge `e`, its numbers converted by `convert`; no factors: all are 1
-template <typename Real, typename NT, typename Scale, typename Convert>
-Quad<Real> quad(const Intrinsic_triangulation<NT>& t, std::uint32_t e, const std::vector<Scale>& s, const Convert& convert)
+// Numbers are divided by 2^`exponent` and converted.
+template <typename Convert>
+struct Shifted_conversion
+{
+  const Convert& convert;
+  int exponent;
+
+  template <typename NT>
+  auto operator()(const NT& x) const
+  {
+    using std::ldexp;
+    return convert(NT(ldexp(x, -exponent)));
+  }
+
+  template <typename NT>
+  auto operator()(const Scaled_number<NT>& x) const { return convert(Scaled_number<NT>(x.mantissa, x.exponent - exponent)); }
+};
+
+// The quadrilateral around the interior edge `e`, its lengths and factors converted; no factors: all are 1.
+template <typename Real, typename NT, typename Scale, typename Convert_length, typename Convert_factor>
+Quad<Real> converted_quad(const Intrinsic_triangulation<NT>& t, std::uint32_t e, const std::vector<Scale>& s,
+                          const Convert_length& length, const Convert_factor& factor)
 {
   const std::uint32_t h = t.edge_halfedge(e), g = t.twin(h);
-  Quad<Real> q{convert(t.length(e)), convert(t.halfedge_length(t.next(h))), convert(t.halfedge_length(t.previous(h))),
-               convert(t.halfedge_length(t.next(g))), convert(t.halfedge_length(t.previous(g))),
+  Quad<Real> q{length(t.length(e)), length(t.halfedge_length(t.next(h))), length(t.halfedge_length(t.previous(h))),
+               length(t.halfedge_length(t.next(g))), length(t.halfedge_length(t.previous(g))),
                Real(1), Real(1), Real(1), Real(1)};
   if(!s.empty())
   {
-    q.i = convert(s[t.origin(h)]);
-    q.j = convert(s[t.target(h)]);
-    q.k = convert(s[t.apex(h)]);
-    q.l = convert(s[t.apex(g)]);
+    q.i = factor(s[t.origin(h)]);
+    q.j = factor(s[t.target(h)]);
+    q.k = factor(s[t.apex(h)]);
+    q.l = factor(s[t.apex(g)]);
   }
   return q;
 }
@@ -102,6 +122,44 @@ bool is_in_range(const Quad<Real>& q, double from)
                greatest = (std::max)({value(q.e), value(q.a), value(q.b), value(q.c), value(q.d),
                                       value(q.i), value(q.j), value(q.k), value(q.l)});
   return least > from && greatest < 1 / from; // NaN may slip through: then the sides are NaN, and nothing is certain
+}
+
+template <typename NT>
+int exponent_of(const NT& x)
+{
+  using std::frexp;
+  int result = 0;
+  (void) frexp(x, &result);
+  return result;
+}
+
+template <typename NT>
+int exponent_of(const Scaled_number<NT>& x) { return int(x.exponent); }
+
+// The same with numbers out of the range of `Real`: of lengths, and of factors, the largest is brought near 1. Neither matters.
+template <typename Real, typename NT, typename Scale, typename Convert>
+Quad<Real> shifted_quad(const Intrinsic_triangulation<NT>& t, std::uint32_t e, const std::vector<Scale>& s, const Convert& convert)
+{
+  int length = (std::numeric_limits<int>::min)(), factor = length;
+  for(const std::uint32_t x : quad_edges(t, e))
+    length = (std::max)(length, exponent_of(t.length(x)));
+  const std::uint32_t h = t.edge_halfedge(e);
+  if(!s.empty())
+    for(const std::uint32_t v : {t.origin(h), t.target(h), t.apex(h), t.apex(t.twin(h))})
+      factor = (std::max)(factor, exponent_of(s[v]));
+  return converted_quad<Real>(t, e, s, Shifted_conversion<Convert>{convert, length}, Shifted_conversion<Convert>{convert, factor});
+}
+
+// The quadrilateral around the interior edge `e`, its numbers converted by `convert`; no factors: all are 1.
+template <typename Real, typename NT, typename Scale, typename Convert>
+Quad<Real> quad(const Intrinsic_triangulation<NT>& t, std::uint32_t e, const std::vector<Scale>& s, const Convert& convert)
+{
+  const Quad<Real> result = converted_quad<Real>(t, e, s, convert, convert);
+  constexpr bool may_leave_range = !has_range_of_double<NT>() || !has_range_of_double<Scale>();
+  if constexpr(may_leave_range && !std::is_same<Real, Exact_number>::value)
+    return is_in_range(result, 1e-90) ? result : shifted_quad<Real>(t, e, s, convert);
+  else
+    return result;
 }
 
 // sides of numbers in this range, which have ten factors, neither over- nor underflow
@@ -186,6 +244,9 @@ bool is_positive_number(const NT& x)
   using std::isfinite;
   return isfinite(x) && x > 0;
 }
+
+template <typename NT>
+bool is_positive_number(const Scaled_number<NT>& x) { return is_positive_number(x.mantissa); }
 
 template <typename NT, typename Scale>
 bool has_positive_numbers(const Intrinsic_triangulation<NT>& t, std::uint32_t e, const std::vector<Scale>& s)

@@ -58,6 +58,9 @@ struct Incircle_form
       r = radius();
   }
 
+  // Are its angles pi, 0 and 0? (So they are, too, where r comes to nothing by rounding.)
+  bool is_broken() const { return !is_triangle || !(r > 0); }
+
 private:
   // By powers where the products neither over- nor underflow, which is always
   // but for triangles whose sides differ by some seventy orders of magnitude.
@@ -113,7 +116,7 @@ Triangle_angles<NT> triangle_angles(const NT& a, const NT& b, const NT& c)
 {
   const Incircle_form<NT> t(a, b, c);
   Triangle_angles<NT> result;
-  result.is_broken = !t.is_triangle || !(t.r > 0);
+  result.is_broken = t.is_broken();
   for(int k = 0; k < 3; ++k)
   {
     result.angle[k] = result.is_broken ? NT(0) : internal::angle(t, k);

@@ -1,0 +1,350 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Angle sums to more digits than `double`. The sum at a vertex is twice the argument of the product of the numbers (s - a) + i r of its
+// corners, so no transcendental function is needed.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_WIDE_ANGLE_SUMS_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_WIDE_ANGLE_SUMS_H
+
+#include <CGAL/Conformal_equivalence/Exact_angle.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Complex_number.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double_vector.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Number_constants.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// The scaled length of h for the square roots `s` of the scale factors.
+template <typename NT, typename Wide>
+Wide wide_length(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, std::uint32_t h)
+{
+  return s[t.origin(h)] * t.halfedge_length(h) * s[t.target(h)];
+}
+
+// The face f with scaled lengths; its side k is the halfedge 3f + k.
+template <typename NT, typename Wide>
+Incircle_form<Wide> wide_triangle(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, std::uint32_t f)
+{
+  return Incircle_form<Wide>(wide_length(t, s, 3 * f), wide_length(t, s, 3 * f + 1), wide_length(t, s, 3 * f + 2));
+}
+
+// A sum of triangle corners, as in `Angle_sum`: the half angles as a product, of which the half turns are counted.
+template <typename Wide>
+class Wide_angle_sum
+{
+  template <int> friend class Wide_corner_vectors;
+
+  Complex_number<Wide> z_{Wide(1), Wide(0)};
+  int half_turns_ = 0;
+
+public:
+  // 0 <= arg w <= pi / 2
+  void add(const Complex_number<Wide>& w)
+  {
+    z_ = z_ * w;
+    if(z_.im < 0 || (z_.im == 0 && z_.re < 0))
+    {
+      z_ = {-z_.re, -z_.im};
+      ++half_turns_;
+    }
+    keep_size();
+  }
+
+  // e^{i (sum - target) / 2}, up to a positive factor
+  template <typename NT>
+  Complex_number<Wide> half_difference(const Exact_angle<NT>& target) const
+  {
+    const Complex_number<Wide> z = half_turns_ % 2 == 0 ? z_ : Complex_number<Wide>{-z_.re, -z_.im};
+    if(target.is_exact() && target.units == 2 * Exact_angle<NT>::units_of_pi)
+      return {-z.re, -z.im};
+    if(target.is_exact() && target.units == Exact_angle<NT>::units_of_pi)
+      return {z.im, -z.re};
+    return z * unit_complex(Wide(-target.template radians<Wide>() / 2));
+  }
+
+  // The multiple of 4 pi by which sum - target differs from `remainder`, twice the argument of `half_difference()`. The sum need be known
+  // only up to less than 2 pi: between so many half turns, doubled, and one more.
+  template <typename NT>
+  double missing_turns(const Exact_angle<NT>& target, double remainder) const
+  {
+    const double pi = Number_constants<double>::pi(), double_turn = 4 * pi, sum = (2. * half_turns_ + 1) * pi;
+    return double_turn * std::round((sum - static_cast<double>(target.radians()) - remainder) / double_turn);
+  }
+
+private:
+  // Only the argument counts: scales z where it has become small.
+  void keep_size()
+  {
+    const double size = std::abs(static_cast<double>(z_.re)) + std::abs(static_cast<double>(z_.im));
+    if(size < 1e-30)
+      z_ = {z_.re / size, z_.im / size};
+  }
+};
+
+// Adds the corners of f, whose lengths are multiplied by `unit`: it has to be about the inverse of the semiperimeter.
+template <typename NT, typename Wide, typename Unit>
+void add_corners_of(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Incircle_form<Wide>& triangle, const Unit& unit,
+                    std::vector<Wide_angle_sum<Wide> >& sum)
+{
+  typedef Complex_number<Wide> Complex;
+  for(std::uint32_t k = 0; k < 3; ++k)
+  {
+    if(!triangle.is_broken())
+      sum[t.apex(3 * f + k)].add(Complex{triangle.tangent[k] * unit, triangle.r * unit});
+    else if(!(triangle.tangent[k] > 0))
+      sum[t.apex(3 * f + k)].add(Complex{Wide(0), Wide(1)});
+  }
+}
+
+// Adds the corners of f, of which `a`, `b` and `c` are the sides. Broken triangles count as in the extended energy.
+template <typename NT, typename Wide>
+void add_corners(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Wide& a, const Wide& b, const Wide& c,
+                 std::vector<Wide_angle_sum<Wide> >& sum)
+{
+  const Incircle_form<Wide> triangle(a, b, c);
+  const double s = static_cast<double>(triangle.s);
+  if(std::isnormal(s))
+    add_corners_of(t, f, triangle, 1 / s, sum);
+  else // out of the range of `double`
+    add_corners_of(t, f, triangle, Wide(1 / triangle.s), sum);
+}
+
+// The same for `Double_double`, by vectors: of a few triangles, and then, triangle by triangle, of its three corners, which are added to three
+// products. To the same bits, unless the program is compiled for fused multiplications. As with `Incircle_vectors`, triangles that need care
+// are left to the functions above.
+template <int bytes>
+class Wide_corner_vectors
+{
+  typedef Double_double_vector<bytes>               Numbers;
+  typedef typename Numbers::Vector                  Vector;
+  typedef typename Numbers::Lanes                   Lanes;
+  typedef Intrinsic_triangulation<double>           Triangulation;
+  typedef std::vector<Wide_angle_sum<Double_double> > Sums;
+  static constexpr int lanes = Numbers::lanes;
+
+public:
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void add_all(const Triangulation& t, const std::vector<Double_double>& length, Sums& sums)
+  {
+    Wide_corner_vectors corners;
+    std::uint32_t f = 0;
+    for(; f + lanes <= t.number_of_faces(); f += lanes)
+    {
+      corners.compute(t, length, f, Lanes());
+      for(int i = 0; i < lanes; ++i)
+        corners.add(t, length, f + std::uint32_t(i), i, sums);
+    }
+    for(; f < t.number_of_faces(); ++f)
+      add_one(t, length, f, sums);
+  }
+
+private:
+  // The scaled lengths of the sides k of the triangles from f on.
+  template <int... i>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void load_sides(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t h, Numbers& side, std::integer_sequence<int, i...>)
+  {
+    const Double_double* const l[] = {&length[t.edge(h + 3 * i)]...};
+    side.hi = Vector{l[i]->hi...};
+    side.lo = Vector{l[i]->lo...};
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, Lanes)
+  {
+    Numbers side[3], tangent[3], s, square, r;
+    for(std::uint32_t k = 0; k < 3; ++k)
+      load_sides(t, length, 3 * f + k, side[k], Lanes());
+    set_tangent(side[0], side[1], side[2], tangent[0]);
+    set_tangent(side[1], side[2], side[0], tangent[1]);
+    set_tangent(side[2], side[0], side[1], tangent[2]);
+    s.set_sum(side[0], side[1]);
+    s.set_sum(s, side[2]);
+    s.halve();
+    square.set_product(tangent[0], tangent[1]);
+    square.set_product(square, tangent[2]);
+    square.set_quotient(square, s);
+
+    const Vector zero = {}, one = zero + 1., unit = 1. / s.hi;
+    const auto is_safe = (tangent[0].hi > 0.) & (tangent[1].hi > 0.) & (tangent[2].hi > 0.) & (square.hi > 1e-200) & (square.hi < 1e200);
+    const Vector plain = is_safe ? one : zero;
+    std::memcpy(is_plain_, &plain, sizeof(plain));
+    square.hi = is_safe ? square.hi : one;
+    r.set_root(square);
+    r.set_product(r, unit);
+    r.store(y_hi_, y_lo_);
+    for(int k = 0; k < 3; ++k)
+    {
+      tangent[k].set_product(tangent[k], unit);
+      tangent[k].store(x_hi_[k], x_lo_[k]);
+    }
+  }
+
+  // half of b + c - a, as excess() has it
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_tangent(const Numbers& a, const Numbers& b, const Numbers& c, Numbers& result)
+  {
+    const auto is_longer = (b.hi > c.hi) | ((b.hi == c.hi) & (b.lo > c.lo));
+    Numbers longer, shorter;
+    longer.select(is_longer, b, c);
+    shorter.select(is_longer, c, b);
+    result.set_difference(longer, a);
+    result.set_sum(result, shorter);
+    result.halve();
+  }
+
+  static void add_one(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, Sums& sums)
+  {
+    add_corners(t, f, length[t.edge(3 * f)], length[t.edge(3 * f + 1)], length[t.edge(3 * f + 2)], sums);
+  }
+
+  // Triangle i, which is f.
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE
+  void add(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, int i, Sums& sums) const
+  {
+    const std::uint32_t v[] = {t.apex(3 * f), t.apex(3 * f + 1), t.apex(3 * f + 2)};
+    if(is_plain_[i] == 0 || v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
+      return add_one(t, length, f, sums);
+    Wide_angle_sum<Double_double> none;
+    Wide_angle_sum<Double_double>* const sum[] = {&sums[v[0]], &sums[v[1]], &sums[v[2]], &none};
+    const double x_hi[] = {x_hi_[0][i], x_hi_[1][i], x_hi_[2][i], 1}, x_lo[] = {x_lo_[0][i], x_lo_[1][i], x_lo_[2][i], 0};
+    for(int k = 0; k < 4; k += lanes)
+      multiply(sum + k, x_hi + k, x_lo + k, y_hi_[i], y_lo_[i], Lanes());
+  }
+
+  // Multiplies as many products as there are lanes by x + i y.
+  template <int... j>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void multiply(Wide_angle_sum<Double_double>* const* sum, const double* x_hi, const double* x_lo, double y_hi, double y_lo,
+                std::integer_sequence<int, j...>)
+  {
+    const Vector zero = {}, one = zero + 1.;
+    const Numbers x = {{x_hi[j]...}, {x_lo[j]...}}, y = {zero + y_hi, zero + y_lo};
+    const Numbers re = {{sum[j]->z_.re.hi...}, {sum[j]->z_.re.lo...}}, im = {{sum[j]->z_.im.hi...}, {sum[j]->z_.im.lo...}};
+    Numbers next_re, next_im, product;
+    next_re.set_product(re, x);
+    product.set_product(im, y);
+    next_re.set_difference(next_re, product);
+    next_im.set_product(re, y);
+    product.set_product(im, x);
+    next_im.set_sum(next_im, product);
+
+    const auto is_beyond = (next_im.hi < 0.) | ((next_im.hi == 0.) & (next_re.hi < 0.));
+    const Numbers negative_re = {-next_re.hi, -next_re.lo}, negative_im = {-next_im.hi, -next_im.lo};
+    const Vector half_turn = is_beyond ? one : zero;
+    next_re.select(is_beyond, negative_re, next_re);
+    next_im.select(is_beyond, negative_im, next_im);
+
+    double re_hi[lanes], re_lo[lanes], im_hi[lanes], im_lo[lanes], half_turns[lanes];
+    next_re.store(re_hi, re_lo);
+    next_im.store(im_hi, im_lo);
+    std::memcpy(half_turns, &half_turn, sizeof(half_turn));
+    ((sum[j]->z_ = {Double_double(re_hi[j], re_lo[j]), Double_double(im_hi[j], im_lo[j])},
+      sum[j]->half_turns_ += int(half_turns[j]), sum[j]->keep_size()), ...);
+  }
+
+  double x_hi_[3][lanes], x_lo_[3][lanes], y_hi_[lanes], y_lo_[lanes]; // ((s - a) + i r) / s, by side and triangle
+  double is_plain_[lanes];
+};
+
+// The scaled lengths from `first` on, one by one.
+template <typename NT, typename Wide>
+void set_wide_lengths(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, std::uint32_t first, std::uint32_t last,
+                      std::vector<Wide>& result)
+{
+  for(std::uint32_t e = first; e < last; ++e)
+    result[e] = wide_length(t, s, t.edge_halfedge(e));
+}
+
+// The same for `Double_double`, by vectors.
+template <int bytes>
+class Wide_length_vectors
+{
+  typedef Double_double_vector<bytes>     Numbers;
+  typedef typename Numbers::Vector        Vector;
+  typedef Intrinsic_triangulation<double> Triangulation;
+  static constexpr int lanes = Numbers::lanes;
+
+public:
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void set_all(const Triangulation& t, const std::vector<Double_double>& s, std::vector<Double_double>& result)
+  {
+    std::uint32_t e = 0;
+    for(; e + lanes <= t.number_of_edges(); e += lanes)
+      set(t, s, e, result, typename Numbers::Lanes());
+    set_wide_lengths(t, s, e, t.number_of_edges(), result);
+  }
+
+private:
+  template <int... i>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void set(const Triangulation& t, const std::vector<Double_double>& s, std::uint32_t e, std::vector<Double_double>& result,
+           std::integer_sequence<int, i...>)
+  {
+    const std::uint32_t h[] = {t.edge_halfedge(e + i)...};
+    const Double_double* const from[] = {&s[t.origin(h[i])]...};
+    const Double_double* const to[] = {&s[t.target(h[i])]...};
+    const Numbers x = {{from[i]->hi...}, {from[i]->lo...}}, y = {{to[i]->hi...}, {to[i]->lo...}};
+    Numbers product;
+    product.set_product(x, Vector{t.length(e + i)...});
+    product.set_product(product, y);
+    double hi[lanes], lo[lanes];
+    product.store(hi, lo);
+    ((result[e + i] = Double_double(hi[i], lo[i])), ...);
+    const bool is_finite = ((lo[i] - lo[i] == 0) && ...);
+    if(!is_finite) // as there are factors beyond 2^996
+      set_wide_lengths(t, s, e, e + lanes, result);
+  }
+};
+
+CGAL_CONFORMAL_EQUIVALENCE_AVX2 inline
+void add_wide_angles_with_avx2(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& s, std::vector<Double_double>& length,
+                               std::vector<Wide_angle_sum<Double_double> >& sum)
+{
+  Wide_length_vectors<32>::set_all(t, s, length);
+  Wide_corner_vectors<32>::add_all(t, length, sum);
+}
+
+inline void add_wide_angles(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& s, std::vector<Double_double>& length,
+                            std::vector<Wide_angle_sum<Double_double> >& sum)
+{
+  if(has_avx2())
+    return add_wide_angles_with_avx2(t, s, length, sum);
+  Wide_length_vectors<16>::set_all(t, s, length);
+  Wide_corner_vectors<16>::add_all(t, length, sum);
+}
+
+template <typename NT, typename Wide>
+void add_wide_angles(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, std::vector<Wide>& length,
+                     std::vector<Wide_angle_sum<Wide> >& sum)
+{
+  set_wide_lengths(t, s, 0, t.number_of_edges(), length);
+  for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
+    add_corners(t, f, length[t.edge(3 * f)], length[t.edge(3 * f + 1)], length[t.edge(3 * f + 2)], sum);
+}
+
+// The angle sums, by vertex, for the square roots `s` of the scale factors.
+template <typename NT, typename Wide>
+std::vector<Wide_angle_sum<Wide> > wide_angle_sums(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s)
+{
+  std::vector<Wide_angle_sum<Wide> > result(t.number_of_vertices());
+  std::vector<Wide> length(t.number_of_edges(), Wide(0));
+  add_wide_angles(t, s, length, result);
+  return result;
+}
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_WIDE_ANGLE_SUMS_H
