@@ -29,7 +29,7 @@ namespace Conformal_equivalence {
 /// \ingroup PkgConformalEquivalenceHyperbolic
 ///
 /// A closed hyperbolic surface with a triangulation whose vertices, lifted to the unit disk, have rational coordinates, and whose deck transformations are
-/// rational, too. That it is one is certified: the product of commutators of the canonical generators is exactly 1, every lifted triangle is
+/// rational, too. That it is one is certified: the relation of the generators holds exactly, every lifted triangle is
 /// counterclockwise, exactly, and the areas of all triangles, which sum up to a multiple of 2 pi, sum up to 4 pi (g - 1); so the triangles turn exactly once around
 /// each vertex, the developing map is a local isometry, and the group is discrete. Nothing of this rests on how the numbers were found.
 ///
@@ -65,6 +65,9 @@ public:
   /// where the target of the halfedge `h` lies, if `h` is lifted such that it begins at the chosen lift of its origin.
   Point target_point(Index h) const { return realization_.target_point(triangulation_, h).coordinates(); }
 
+  /// where the vertex opposite to `h` in its face lies then.
+  Point apex_point(Index h) const { return realization_.apex_point(triangulation_, h).coordinates(); }
+
   /// canonical generators a_1, b_1, ..., a_g, b_g, of which the product of commutators a b a^-1 b^-1 is 1.
   std::vector<Motion> canonical_generators() const { return motions(realization_.canonical_generators()); }
 
@@ -74,7 +77,7 @@ public:
   /// the number of binary digits to which generators were rounded
   int precision() const { return realization_.precision(); }
 
-  /// the largest number of decimal digits of an integer of the canonical generators
+  /// the largest number of decimal digits of an integer of the generators
   std::size_t number_of_digits() const { return realization_.number_of_digits(); }
 
   /// by how much, at most, an edge of the triangulation is longer or shorter than in the metric that was computed (rounded)

@@ -66,7 +66,7 @@ struct Hyperbolic_uniformization : public Outcome
   /// canonical generators a_1, b_1, ..., a_g, b_g, for which the product of commutators a_1 b_1 a_1^-1 b_1^-1 ... is 1, as words in `generators`
   std::vector<std::vector<std::int32_t> > canonical_words;
   std::vector<Motion> canonical_generators;          ///< the canonical generators
-  /// how far the product of commutators, computed from generators with twice the digits of `double`, is from the identity
+  /// how far the relation, computed from generators with twice the digits of `double`, is from the identity
   double relation_error = 0;
 
   /// @}

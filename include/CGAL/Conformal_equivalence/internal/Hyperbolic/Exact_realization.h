@@ -46,7 +46,7 @@ public:
     status = Status::WRONG_TOPOLOGY;
     if(!u.is_laid_out())
       return;
-    for(const int bits : {32, 48, 64, 80, 96}) // the numbers given have about a hundred
+    for(const int bits : {24, 32, 48, 64, 80, 96}) // the numbers given have about a hundred
     {
       try_with(u, bits);
       if(status == Status::OK && largest_length_difference_ <= tolerance)
@@ -66,6 +66,13 @@ public:
     return label_[h].empty() ? point_[t.target(h)] : (*deck_)(label_[h])(point_[t.target(h)]);
   }
 
+  // The apex of the face of h, lifted with the origin of h.
+  Exact_disk_point apex_point(const Triangulation& t, Index h) const
+  {
+    const Index last = t.previous(h);
+    return label_[last].empty() ? point_[t.origin(last)] : (*deck_)(inverse(label_[last]))(point_[t.origin(last)]);
+  }
+
   const std::vector<Exact_isometry>& canonical_generators() const { return canonical_; }
   const std::vector<Exact_isometry>& generators() const { return generator_; }
   int precision() const { return bits_; }
@@ -74,7 +81,7 @@ public:
   std::size_t number_of_digits() const
   {
     std::size_t result = 0;
-    for(const Exact_isometry& m : canonical_)
+    for(const Exact_isometry& m : generator_)
       for(const Rational_numerator* x : {&m.p, &m.q, &m.r, &m.s})
       {
         std::ostringstream text;
@@ -92,7 +99,7 @@ private:
     amount = 0;
     status = Status::NOT_INJECTIVE;
     find_group(u);
-    if(canonical_.empty())
+    if(generator_.empty())
       return;
     find_points(u);
     certify(u.metric.triangulation, u.genus);
@@ -102,16 +109,13 @@ private:
 
   void find_group(const Hyperbolic_uniformization& u)
   {
-    const Isometry<Wide> identity = Isometry<Wide>::identity();
-    Word_values<Isometry<Wide> > deck(u.wide_generators, identity);
-    std::vector<Isometry<Wide> > canonical;
-    for(const Word& w : u.canonical_words)
-      canonical.push_back(deck(w));
-    canonical_ = exact_generators(canonical, bits_);
-    if(canonical_.empty())
+    generator_ = exact_generators(u.wide_generators, u.relation, bits_);
+    if(generator_.empty())
       return;
-    generator_ = Canonical_generators(u.relation).given(canonical_, Exact_isometry::identity());
     deck_ = std::make_shared<Word_values<Exact_isometry> >(generator_, Exact_isometry::identity());
+    canonical_.clear();
+    for(const Word& w : u.canonical_words)
+      canonical_.push_back((*deck_)(w));
   }
 
   // Points near the border of the disk get more digits: what is d in the middle is about d (1 - |z|^2) there.
@@ -137,7 +141,7 @@ private:
     for(Index h = 0; h < t.number_of_halfedges(); h += 3)
     {
       // the last corner from the first one, against the last side
-      const Exact_disk_point &p = point_[t.origin(h)], q = target_point(t, h), r = third_point(t, h);
+      const Exact_disk_point &p = point_[t.origin(h)], q = target_point(t, h), r = apex_point(t, h);
       const Gaussian_integer half_area = half_area_vector(p, q, r);
       if(half_area.im > 0 && p.depth() > 0 && q.depth() > 0 && r.depth() > 0)
         area += 2 * std::atan2(rounded_quotient(half_area.im, Rational_numerator(CGAL::abs(half_area.re) + half_area.im)),
@@ -148,13 +152,6 @@ private:
     const double expected = 4 * Number_constants<double>::pi() * (double(genus) - 1), less_than_a_turn = 1;
     if(faces.empty() && std::abs(area - expected) < less_than_a_turn)
       status = Status::OK;
-  }
-
-  // The apex of the face of h, lifted with the origin of h.
-  Exact_disk_point third_point(const Triangulation& t, Index h) const
-  {
-    const Index last = t.previous(h);
-    return label_[last].empty() ? point_[t.origin(last)] : (*deck_)(inverse(label_[last]))(point_[t.origin(last)]);
   }
 
   void measure(const Hyperbolic_uniformization& u)

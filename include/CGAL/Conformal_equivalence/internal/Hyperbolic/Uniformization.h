@@ -142,14 +142,8 @@ private:
 
   void find_canonical_generators(const Word& relation, Word_values<Motion>& deck)
   {
-    result_.canonical_words = Canonical_generators(relation).words();
-    Motion product = Motion::identity();
-    for(std::size_t n = 0; n + 1 < result_.canonical_words.size(); n += 2)
-    {
-      const Motion &a = deck(result_.canonical_words[n]), &b = deck(result_.canonical_words[n + 1]);
-      product = product * a * b * a.inverse() * b.inverse();
-    }
-    result_.relation_error = product.distance_from_identity();
+    result_.canonical_words = canonical_generators(relation);
+    result_.relation_error = deck(relation).distance_from_identity();
     for(const Word& w : result_.canonical_words)
       result_.canonical_generators.push_back(rounded(deck(w)));
   }

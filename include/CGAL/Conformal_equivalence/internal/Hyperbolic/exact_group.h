@@ -1,36 +1,28 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Rational matrices near given ones of which the product of commutators [A_1, B_1] ... [A_g, B_g] is exactly 1, for any genus. All but the last
-// pair are merely rounded. With C the inverse of the product of their commutators, X = A_g^-1 and B = B_g, what is left is [A_g, B_g] = C, that
-// is B X B^-1 = X C. There is such a B iff tr(X C) = tr(X), one linear equation for X, which is met by the change of one entry; and then B X = X C B is linear in
-// B: for every N,  B = X C N - N adj(X)  solves it, and N = B_g (2 X - tr X)^-1 would be the N of the B_g given, if that solved it, too.
+// Rational matrices near given generators of the group of a closed surface, for which the relation holds exactly, for any genus. A pair of letters that
+// interleave is split off: the relation becomes [a, b] W = 1, with a word W in the other generators, which are merely rounded. With C = W^-1
+// and X = a^-1 what is left is [a, b] = C, that is b X b^-1 = X C. There is such a b iff tr(X C) = tr(X), one linear equation for X, which is met by the
+// change of one entry; and then b X = X C b is linear in b: for every N,  b = X C N - N adj(X)  solves it, and N = b (2 X - tr X)^-1 would be
+// the N of the b given, if that solved it, too.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_EXACT_GROUP_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_EXACT_GROUP_H
 
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Exact_isometry.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Isometry.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/words.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-inline Exact_isometry product_of_commutators(const std::vector<Exact_isometry>& generators)
-{
-  Exact_isometry result = Exact_isometry::identity();
-  for(std::size_t n = 0; n + 1 < generators.size(); n += 2)
-  {
-    const Exact_isometry &a = generators[n], &b = generators[n + 1];
-    result = result * (a * b * a.inverse() * b.inverse());
-  }
-  return result;
-}
 
 // Changes the entry of X that matters most such that tr(X M) = k tr(X), and scales X.
 inline Exact_isometry with_equal_traces(const Exact_isometry& x, const Exact_isometry& m, const Rational_numerator& k)
@@ -65,35 +57,42 @@ inline Exact_isometry rounded_quotient_by_twist(const Isometry<Double_double>& a
 }
 
 // The exact matrices; none if rounding was too coarse.
-inline std::vector<Exact_isometry> exact_generators(const std::vector<Isometry<Double_double> >& given, int bits)
+inline std::vector<Exact_isometry> exact_generators(const std::vector<Isometry<Double_double> >& given, Word relation, int bits)
 {
   typedef Rational_numerator Integer;
-  std::vector<Exact_isometry> result;
-  const std::size_t n = given.size();
-  if(n < 4)
-    return result;
-  for(std::size_t i = 0; i + 2 < n; ++i)
-    result.push_back(Exact_isometry::rounded(given[i], bits).reduced());
+  const std::vector<Exact_isometry> none;
+  const Word whole = relation;
+  Interleaved_pair pair;
+  if(!split_off(relation, pair))
+    return none;
+  Letter_values<Isometry<Double_double> > rough_values(given.size(), Isometry<Double_double>::identity());
+  Letter_values<Exact_isometry> values(given.size(), Exact_isometry::identity());
+  for(std::size_t n = 0; n < given.size(); ++n)
+  {
+    rough_values.set(std::int32_t(n + 1), given[n]);
+    values.set(std::int32_t(n + 1), Exact_isometry::rounded(given[n], bits).reduced());
+  }
 
-  // M = k C, for the inverse C of the product of the commutators, whose determinant is 1
+  // M = k C: every other letter occurs twice in W, with both signs, so that the determinant of M is a square
   Exact_isometry m = Exact_isometry::identity();
   Integer k(1);
-  for(std::size_t i = n - 2; i > 0; i -= 2)
+  for(const std::int32_t letter : inverse(relation))
   {
-    const Exact_isometry &a = result[i - 2], &b = result[i - 1];
-    m = matrix_product(m, matrix_product(matrix_product(b, a), matrix_product(b.inverse(), a.inverse())));
-    k = k * a.determinant() * b.determinant();
+    m = matrix_product(m, values[letter]);
+    if(letter > 0)
+      k = k * values[letter].determinant();
   }
-  const Exact_isometry x = with_equal_traces(Exact_isometry::rounded(given[n - 2].inverse(), bits), m, k);
-  const Exact_isometry twist = rounded_quotient_by_twist(given[n - 2], given[n - 1], bits);
+  const Isometry<Double_double> a = rough_values(pair.a()), b = rough_values(pair.b());
+  const Exact_isometry x = with_equal_traces(Exact_isometry::rounded(a.inverse(), bits), m, k);
+  const Exact_isometry twist = rounded_quotient_by_twist(a, b, bits);
   const Exact_isometry left = matrix_product(matrix_product(x, m), twist), right = matrix_product(twist, x.inverse());
-  result.push_back(x.inverse());
-  result.push_back(Exact_isometry{Integer(left.p - k * right.p), Integer(left.q - k * right.q), Integer(left.r - k * right.r),
-                                  Integer(left.s - k * right.s)}.reduced());
-  for(const Exact_isometry& g : result)
+  const Exact_isometry exact_b = Exact_isometry{Integer(left.p - k * right.p), Integer(left.q - k * right.q), Integer(left.r - k * right.r),
+                                                Integer(left.s - k * right.s)}.reduced();
+  pair.set(x.inverse(), exact_b, values);
+  for(const Exact_isometry& g : values.generators())
     if(!(g.determinant() > 0))
-      return std::vector<Exact_isometry>();
-  return product_of_commutators(result).is_identity() ? result : std::vector<Exact_isometry>();
+      return none;
+  return values(whole).is_identity() ? values.generators() : none;
 }
 
 } // namespace internal
