@@ -55,8 +55,8 @@ namespace Conformal_equivalence {
 /// \cgalNamedParamsEnd
 ///
 /// \return the metric, with a status: `OK`, `CONVERGED_TO_ROUNDING`; `EMPTY_MESH`, `INVALID_NUMBER`, `ANGLE_OUT_OF_RANGE` as in `Conformal_metric_solver::solve()`;
-///         `WRONG_TOPOLOGY` (one face of every component that has no curvature to give and an Euler characteristic of at least 0; `amount`: 2 pi times it: such a component needs cones
-///         of a negative curvature), `GAUSS_BONNET_VIOLATED` (the vertices with prescribed angles that are not flat: they leave the area `amount` <= 0), `NO_ANGLE_LEFT` (the vertices of
+///         `WRONG_TOPOLOGY` (one face of every component without cones whose Euler characteristic is not negative; `amount`: 2 pi times it, which the curvatures 2 pi - angle of
+///         cones must exceed), `GAUSS_BONNET_VIOLATED` (the vertices with prescribed angles that are not flat: they leave the area `amount` <= 0), `NO_ANGLE_LEFT` (the vertices of
 ///         fixed u): there is no such metric, nothing was computed;
 ///         `DEGENERATE_METRIC` (faces of the triangulation of the metric that violate the triangle inequality, which only happens at a border; or, with `Retriangulation::ALWAYS`, of the one given),
 ///         `ITERATIONS_EXHAUSTED`, `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`, `OUT_OF_MEMORY`.

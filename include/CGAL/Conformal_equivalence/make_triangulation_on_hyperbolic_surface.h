@@ -41,7 +41,7 @@ typedef Hyperbolic_surface_traits_2<Hyperbolic_Delaunay_triangulation_traits_2<S
 /// Needs \cgal 6.1 or later; with earlier versions a call does not compile, and says so. Linear time.
 ///
 /// \tparam Traits traits of `Triangulation_on_hyperbolic_surface_2` whose points are made of two numbers to which `Exact_rational` converts
-/// \pre `surface.status` is `OK`, or `BOUND_NOT_MET`
+/// \pre `surface.status` is `OK` or `BOUND_NOT_MET`: it has generators and points
 template <typename Traits = Default_hyperbolic_surface_traits>
 Triangulation_on_hyperbolic_surface_2<Traits> make_triangulation_on_hyperbolic_surface(const Exact_hyperbolic_surface& surface)
 {

@@ -59,7 +59,7 @@ Conformal_conditions<double> read_hyperbolic_conditions(const Imported_mesh<Tria
 /// disk: generators of 2g loops with their relation, and canonical ones. `realize_exactly()` makes of this a surface in rational numbers, and
 /// `make_triangulation_on_hyperbolic_surface()` a `CGAL::Triangulation_on_hyperbolic_surface_2`.
 ///
-/// A closed mesh of genus 2 or more needs no conditions. A mesh of genus 0 or 1 needs cones of negative curvature, with angle sums above 2 pi (`cone_angle_map`). Borders are geodesics unless
+/// A closed mesh of genus 2 or more needs no conditions. A closed mesh of genus 0 or 1 needs cones (`cone_angle_map`) whose curvatures 2 pi - angle sum up to more than 4 pi or 0. Borders are geodesics unless
 /// conditions say otherwise: the double of the surface is uniformized. If u is fixed somewhere on the border, borders keep their edges, and nothing is laid out.
 ///
 /// Edges are flipped on the way, see `compute_hyperbolic_metric()`. The straight triangles of the mesh, between the places of its corners, may then be flipped, as they are not those of the metric;

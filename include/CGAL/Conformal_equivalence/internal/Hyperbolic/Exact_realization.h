@@ -46,16 +46,24 @@ public:
     status = Status::WRONG_TOPOLOGY;
     if(!u.is_laid_out())
       return;
+    const double hopeless = 1e-3; // nothing near to such generators satisfies the relation
     for(const int bits : {24, 32, 48, 64, 80, 96}) // the numbers given have about a hundred
     {
-      try_with(u, bits);
+      if(u.relation_error < hopeless)
+        try_with(u, bits);
       if(status == Status::OK && largest_length_difference_ <= tolerance)
         return;
     }
-    if(status != Status::OK)
-      return;
-    status = Status::BOUND_NOT_MET;
-    amount = largest_length_difference_;
+    if(generator_.empty())
+    {
+      status = Status::ITERATIONS_EXHAUSTED;
+      amount = u.relation_error;
+    }
+    else if(status == Status::OK)
+    {
+      status = Status::BOUND_NOT_MET;
+      amount = largest_length_difference_;
+    }
   }
 
   const Exact_disk_point& vertex_point(Index v) const { return point_[v]; }
