@@ -83,8 +83,9 @@ int order(const Matrix& m, int p)
   return n;
 }
 
-// A regular map: k triangles around every vertex. Its halfedges are the elements of a group of matrices modulo p; the twin is the product with an element of order 2, the
-// next one that with an element of order 3, and the product of these has the order k. For k = p = 7 it is that of Klein's quartic.
+// A regular map: k triangles around every vertex. Its halfedges are the elements of a group of matrices modulo p; the twin is the product with an
+// element of order 2, the next one that with an element of order 3, and the product of these has the order k. For k = p = 7 it is that of Klein's
+// quartic.
 Triangulation regular_map(int p, int k)
 {
   const Matrix one = {{1, 0, 0, 1}}, s = product({{0, p - 1, 1, 0}}, one, p);
@@ -219,7 +220,8 @@ CE::Hyperbolic_metric<double> metric_of(const Triangulation& t) { return CE::com
 
 CE::Hyperbolic_uniformization uniformization_of(const Triangulation& t)
 {
-  return CE::internal::Uniformization::run(t, without_conditions(t), CE::Solver_options(), CE::internal::make_factorization<CE::Default_solver_traits>());
+  return CE::internal::Uniformization::run(t, without_conditions(t), CE::Solver_options(),
+                                           CE::internal::make_factorization<CE::Default_solver_traits>());
 }
 
 double edge_of_degree(double k) { return 2 * std::acosh(1 / (2 * std::sin(pi / k))); }
@@ -404,10 +406,11 @@ BOOST_AUTO_TEST_CASE(regular_polygons)
     const Triangulation t = regular_polygon(g);
     const auto metric = metric_of(scaled(t, {0.7, -0.4}));
     BOOST_TEST_REQUIRE(bool(metric));
+    // all corners of two polygons side by side lie on a circle with their centers: any of its diagonals may be there, but the radii stay
     const double cot = 1 / std::tan(pi / (4 * g));
-    const Index center = t.origin(2); // the halfedge 2 comes from the center
-    BOOST_TEST(metric.triangulation.degree(center) == 4 * g);
-    metric.triangulation.for_each_outgoing(center, [&](Index h) { BOOST_TEST(std::abs(metric.length(h) - std::acosh(cot * cot)) < 10 * rounding); });
+    for(Index h = 0; h < metric.triangulation.number_of_halfedges(); ++h)
+      if(metric.triangulation.origin(h) != metric.triangulation.target(h))
+        BOOST_TEST(std::abs(metric.length(h) - std::acosh(cot * cot)) < 10 * rounding);
   }
 }
 
@@ -441,13 +444,13 @@ BOOST_AUTO_TEST_CASE(systole_of_Bolza)
   BOOST_TEST(std::abs(least - 3.0571418390) < 1e-9);
 }
 
-// Where angles leave nearly no area the metric is the Euclidean one, up to terms of its size.
+// Where angles leave nearly no area the metric is the Euclidean one, up to terms of the size of the area.
 BOOST_AUTO_TEST_CASE(euclidean_limit)
 {
   testing::Soup soup = testing::torus(9, 7);
   testing::add_noise(soup, 0.1, 6);
   const Triangulation t = testing::triangulation(soup);
-  const double area = 1e-7;
+  const double area = 1e-6;
   CE::Conformal_conditions<double> conditions(t);
   for(Index v = 0; v < t.number_of_vertices(); ++v)
     conditions.prescribe_angle_sum(v, 2 * pi - area / t.number_of_vertices());
@@ -476,7 +479,8 @@ BOOST_AUTO_TEST_CASE(diagonals_of_flat_quadrilaterals_do_not_matter)
     {
       const testing::Soup soup = surface(plate(g), seed);
       const Triangulation other = testing::triangulation(soup);
-      const auto second = CE::compute_hyperbolic_metric(other, without_conditions(other), CGAL::parameters::retriangulation(CE::Retriangulation::ALWAYS));
+      const auto second =
+        CE::compute_hyperbolic_metric(other, without_conditions(other), CGAL::parameters::retriangulation(CE::Retriangulation::ALWAYS));
       BOOST_TEST_REQUIRE(bool(second));
       double worst = 0;
       for(Index v = 0; v < t.number_of_vertices(); ++v)
@@ -609,18 +613,19 @@ BOOST_AUTO_TEST_CASE(exact_groups_of_any_genus)
   }
 }
 
-// What the layout says of a mesh: corners of faces have the distances of the metric, both sides of a seam differ by a deck transformation, and labels have the product 1.
+// What the layout says of a mesh: corners of faces have the distances of the metric, both sides of a seam differ by a deck transformation, and
+// labels have the product 1.
 BOOST_AUTO_TEST_CASE(layouts_are_consistent)
 {
   const Triangulation given = testing::triangulation(surface(plate(3), 5));
   const auto u = uniformization_of(given);
   BOOST_TEST_REQUIRE(u.is_laid_out());
   const Triangulation& t = u.metric.triangulation;
-  for(const std::vector<std::int32_t>* label : {&u.labels[0], &u.input_labels[0]})
-    for(Index h = 0; h < given.number_of_halfedges(); h += 3)
-      BOOST_TEST(CE::internal::product(label[h], label[h + 1], label[h + 2]).empty());
   typedef CE::internal::Isometry<CE::Hyperbolic_uniformization::Wide_number> Motion;
   CE::internal::Word_values<Motion> deck(u.wide_generators, Motion::identity());
+  for(const std::vector<std::int32_t>* label : {&u.labels[0], &u.input_labels[0]})
+    for(Index h = 0; h < given.number_of_halfedges(); h += 3)
+      BOOST_TEST(deck(CE::internal::product(label[h], label[h + 1], label[h + 2])).distance_from_identity() < 1e-22);
   double worst = 0;
   for(Index h = 0; h < t.number_of_halfedges(); ++h)
   {
@@ -639,7 +644,7 @@ BOOST_AUTO_TEST_CASE(layouts_are_consistent)
 
 BOOST_AUTO_TEST_CASE(meshes, * testing::needs_mesh("elephant.off"))
 {
-  for(const char* name : {"joint.off", "eight.off", "helmet.off", "anchor.off", "couplingdown.off", "elephant.off", "double-torus-3-holes.off"})
+  for(const char* name : {"joint.off", "eight.off", "helmet.off", "anchor.off", "couplingdown.off", "elephant.off", "boeing.off"})
   {
     if(!testing::has_mesh(name))
       continue;
@@ -663,7 +668,7 @@ BOOST_AUTO_TEST_CASE(meshes, * testing::needs_mesh("elephant.off"))
   }
 }
 
-#if CGAL_VERSION_NR >= 1060100000
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_HAS_HYPERBOLIC_SURFACES // CGAL 6.1 and later
 #include <CGAL/Triangulation_on_hyperbolic_surface_2_IO.h>
 
 BOOST_AUTO_TEST_CASE(triangulations_of_CGAL)

@@ -223,7 +223,10 @@ void run_hyperbolic(const Options& options, std::ostream& out, std::ostream& err
   if(! options.svg.empty())
     files.write(options.svg, [&](std::ostream& o) { return drawing.write(o); });
   if(! options.html.empty())
-    files.write(options.html, [&](std::ostream& o) { return write_page(o, std::filesystem::path(options.input).filename().string(), lines, drawing); });
+  {
+    const std::string title = std::filesystem::path(options.input).filename().string();
+    files.write(options.html, [&](std::ostream& o) { return write_page(o, title, lines, drawing); });
+  }
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
   if(! options.report.empty())
     files.write(options.report, [&](std::ostream& o) { return (o << json_report(options, mesh, u, exact, seconds)).good(); });

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 /// \file Exact_hyperbolic_surface.h
-/// A closed hyperbolic surface in rational numbers, near to one that was computed in floating-point numbers. (The surfaces are those of section 6 of Bobenko,
-/// Pinkall and Springborn, "Discrete conformal maps and ideal hyperbolic polyhedra", 2015.)
+/// A closed hyperbolic surface in rational numbers, near to one that was computed in floating-point numbers. (The surfaces are those of section 6
+/// of Bobenko, Pinkall and Springborn, "Discrete conformal maps and ideal hyperbolic polyhedra", 2015.)
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_EXACT_HYPERBOLIC_SURFACE_H
 #define CGAL_CONFORMAL_EQUIVALENCE_EXACT_HYPERBOLIC_SURFACE_H
@@ -28,10 +28,11 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceHyperbolic
 ///
-/// A closed hyperbolic surface with a triangulation whose vertices, lifted to the unit disk, have rational coordinates, and whose deck transformations are
-/// rational, too. That it is one is certified: the relation of the generators holds exactly, every lifted triangle is
-/// counterclockwise, exactly, and the areas of all triangles, which sum up to a multiple of 2 pi, sum up to 4 pi (g - 1); so the triangles turn exactly once around
-/// each vertex, the developing map is a local isometry, and the group is discrete. Nothing of this rests on how the numbers were found.
+/// A closed hyperbolic surface with a triangulation whose vertices, lifted to the unit disk, have rational coordinates, and whose deck
+/// transformations are rational, too. That it is one is certified: the relation of the generators holds exactly, every lifted triangle is
+/// counterclockwise, exactly, and the areas of all triangles, which sum up to a multiple of 2 pi, sum up to 4 pi (g - 1); so the triangles turn
+/// exactly once around each vertex, the developing map is a local isometry, and the group is discrete. Nothing of this rests on how the numbers
+/// were found.
 ///
 /// It is not the surface that was computed, but one near it, whose edges have other lengths by `largest_length_difference` at most.
 class Exact_hyperbolic_surface : public Outcome
@@ -109,8 +110,8 @@ private:
 /// \param tolerance the largest difference of the lengths of an edge
 ///
 /// \return the surface, with a status: `OK`; `WRONG_TOPOLOGY`, if `u` has no layout; `NOT_INJECTIVE`, if triangles, `faces`, are not
-///         counterclockwise with as many digits as `u` has; `ITERATIONS_EXHAUSTED`, if these do not suffice for the relation (`amount`: by how much `u` misses it; genera of a hundred or so);
-///         `BOUND_NOT_MET`, if lengths differ by `amount`, more than `tolerance`.
+///         counterclockwise with as many digits as `u` has; `ITERATIONS_EXHAUSTED`, if these do not suffice for the relation (`amount`: by how
+///         much `u` misses it; genera of a hundred or so); `BOUND_NOT_MET`, if lengths differ by `amount`, more than `tolerance`.
 ///
 /// Linear time, with numbers of a few dozen digits at most vertices, and of as many as the generators have along the loops.
 inline Exact_hyperbolic_surface realize_exactly(const Hyperbolic_uniformization& u, double tolerance = 1e-6)

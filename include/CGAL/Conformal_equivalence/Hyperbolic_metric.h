@@ -24,8 +24,8 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceHyperbolic
 ///
-/// A metric of curvature -1, with cones where they were asked for, that is discretely conformally equivalent to a surface with Euclidean lengths l: its
-/// lengths l~ are given by sinh(l~_ij / 2) = e^{(u_i + u_j) / 2} l_ij / 2, on the triangulation that is Delaunay for them; so where u is 0 and
+/// A metric of curvature -1, with cones where they were asked for, that is discretely conformally equivalent to a surface with Euclidean lengths
+/// l: its lengths l~ are given by sinh(l~_ij / 2) = e^{(u_i + u_j) / 2} l_ij / 2, on the triangulation that is Delaunay for them; so where u is 0 and
 /// triangles are much smaller than 1 it is about the metric given. If the status says that there is none, the elements at fault are named.
 ///
 /// \tparam NT_ number type of lengths and of u

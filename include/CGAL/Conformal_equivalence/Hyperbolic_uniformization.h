@@ -3,7 +3,8 @@
 
 /// \file Hyperbolic_uniformization.h
 /// A surface as the quotient of the hyperbolic plane by a group: what `uniformize_hyperbolic()` returns (section 6 of Bobenko, Pinkall and
-/// Springborn, "Discrete conformal maps and ideal hyperbolic polyhedra", 2015; Springborn, "Ideal hyperbolic polyhedra and discrete uniformization", 2020).
+/// Springborn, "Discrete conformal maps and ideal hyperbolic polyhedra", 2015; Springborn, "Ideal hyperbolic polyhedra and discrete
+/// uniformization", 2020).
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_HYPERBOLIC_UNIFORMIZATION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_HYPERBOLIC_UNIFORMIZATION_H
@@ -24,9 +25,9 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceHyperbolic
 ///
-/// The hyperbolic metric of a surface, and, if the surface is closed and connected and has no cones, its layout in the unit disk (Poincaré's model) and
-/// its group. A surface with border that was solved by its double, of which the border is a geodesic, is laid out as this double: what belongs to
-/// the surface has the same numbers there.
+/// The hyperbolic metric of a surface, and, if the surface is closed and connected and has no cones, its layout in the unit disk (Poincaré's
+/// model) and its group. A surface with border that was solved by its double, of which the border is a geodesic, is laid out as this double: what
+/// belongs to the surface has the same numbers there.
 ///
 /// Every vertex has one chosen *lift* in the disk. A halfedge from i to j, lifted such that it begins at the lift of i, ends at the lift of j
 /// moved by a deck transformation, whose word is the *label* of the halfedge: the letter k > 0 stands for `generators[k - 1]`, and -k for its
@@ -51,7 +52,8 @@ struct Hyperbolic_uniformization : public Outcome
   /// @{
 
   std::vector<std::array<double, 2> > vertex_points; ///< the chosen lifts, by vertex
-  std::vector<std::array<double, 2> > corner_points; ///< by halfedge of the triangulation *given*: where its target lies in the domain that is laid out
+  /// by halfedge of the triangulation *given*: where its target lies in the domain that is laid out
+  std::vector<std::array<double, 2> > corner_points;
   std::vector<char> is_seam;                         ///< by edge of the triangulation given: whether its sides lie at different places
 
   /// labels of the halfedges of `metric.triangulation`

@@ -13,9 +13,11 @@
 #include <CGAL/Conformal_equivalence/Exact_hyperbolic_surface.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 
-#include <CGAL/version.h>
+#if __has_include(<CGAL/Triangulation_on_hyperbolic_surface_2.h>) || defined(DOXYGEN_RUNNING)
 
-#if CGAL_VERSION_NR >= 1060100000 || defined(DOXYGEN_RUNNING)
+/// \ingroup PkgConformalEquivalenceHyperbolic
+/// is defined iff `make_triangulation_on_hyperbolic_surface()` can be called: with \cgal 6.1 and later.
+#define CGAL_CONFORMAL_EQUIVALENCE_HAS_HYPERBOLIC_SURFACES
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Hyperbolic_Delaunay_triangulation_traits_2.h>
@@ -35,8 +37,9 @@ typedef Hyperbolic_surface_traits_2<Hyperbolic_Delaunay_triangulation_traits_2<S
 
 /// \ingroup PkgConformalEquivalenceHyperbolic
 ///
-/// makes a triangulation of \cgal of a hyperbolic surface in rational numbers, of any genus: its triangles are those of `surface`, with exact cross ratios at the edges, and the first face is the anchor.
-/// It is nearly Delaunay: what rounding has made of cocircular vertices is left to `make_Delaunay()`.
+/// makes a triangulation of \cgal of a hyperbolic surface in rational numbers, of any genus: its triangles are those of `surface`, with exact
+/// cross ratios at the edges, and the first face is the anchor. It is nearly Delaunay: what rounding has made of cocircular vertices is left to
+/// `make_Delaunay()`.
 ///
 /// Needs \cgal 6.1 or later; with earlier versions a call does not compile, and says so. Linear time.
 ///
@@ -94,6 +97,6 @@ void make_triangulation_on_hyperbolic_surface(const Exact_hyperbolic_surface&)
 } // namespace Conformal_equivalence
 } // namespace CGAL
 
-#endif // CGAL_VERSION_NR
+#endif // CGAL has hyperbolic surfaces
 
 #endif // CGAL_CONFORMAL_EQUIVALENCE_MAKE_TRIANGULATION_ON_HYPERBOLIC_SURFACE_H

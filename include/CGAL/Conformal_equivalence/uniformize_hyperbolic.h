@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 /// \file uniformize_hyperbolic.h
-/// From a mesh to the hyperbolic surface that it is conformally equivalent to, laid out in the unit disk, with its group (section 6 of Bobenko, Pinkall and
-/// Springborn, "Discrete conformal maps and ideal hyperbolic polyhedra", 2015).
+/// From a mesh to the hyperbolic surface that it is conformally equivalent to, laid out in the unit disk, with its group (section 6 of Bobenko,
+/// Pinkall and Springborn, "Discrete conformal maps and ideal hyperbolic polyhedra", 2015).
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_UNIFORMIZE_HYPERBOLIC_H
 #define CGAL_CONFORMAL_EQUIVALENCE_UNIFORMIZE_HYPERBOLIC_H
@@ -54,16 +54,18 @@ Conformal_conditions<double> read_hyperbolic_conditions(const Imported_mesh<Tria
 
 /// \ingroup PkgConformalEquivalenceHyperbolic
 ///
-/// finds the hyperbolic surface that a triangle mesh is discretely conformally equivalent to: the one metric of curvature -1 within its conformal class. If the mesh is closed and connected
-/// and has no cones, the surface is also laid out in the unit disk, Poincaré's model of the hyperbolic plane, around a vertex in the center; and its group is found, by which its copies tile the
-/// disk: generators of 2g loops with their relation, and canonical ones. `realize_exactly()` makes of this a surface in rational numbers, and
-/// `make_triangulation_on_hyperbolic_surface()` a `CGAL::Triangulation_on_hyperbolic_surface_2`.
+/// finds the hyperbolic surface that a triangle mesh is discretely conformally equivalent to: the one metric of curvature -1 within its conformal
+/// class. If the mesh is closed and connected and has no cones, the surface is also laid out in the unit disk, Poincaré's model of the hyperbolic
+/// plane, around a vertex in the center; and its group is found, by which its copies tile the disk: generators of 2g loops with their relation,
+/// and canonical ones. `realize_exactly()` makes of this a surface in rational numbers, and `make_triangulation_on_hyperbolic_surface()` a
+/// `CGAL::Triangulation_on_hyperbolic_surface_2`.
 ///
-/// A closed mesh of genus 2 or more needs no conditions. A closed mesh of genus 0 or 1 needs cones (`cone_angle_map`) whose curvatures 2 pi - angle sum up to more than 4 pi or 0. Borders are geodesics unless
-/// conditions say otherwise: the double of the surface is uniformized. If u is fixed somewhere on the border, borders keep their edges, and nothing is laid out.
+/// A closed mesh of genus 2 or more needs no conditions. A closed mesh of genus 0 or 1 needs cones (`cone_angle_map`) whose curvatures 2 pi -
+/// angle sum up to more than 4 pi or 0. Borders are geodesics unless conditions say otherwise: the double of the surface is uniformized. If u is
+/// fixed somewhere on the border, borders keep their edges, and nothing is laid out.
 ///
-/// Edges are flipped on the way, see `compute_hyperbolic_metric()`. The straight triangles of the mesh, between the places of its corners, may then be flipped, as they are not those of the metric;
-/// its own triangulation is in the result, too.
+/// Edges are flipped on the way, see `compute_hyperbolic_metric()`. The straight triangles of the mesh, between the places of its corners, may
+/// then be flipped, as they are not those of the metric; its own triangulation is in the result, too.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
@@ -78,7 +80,8 @@ Conformal_conditions<double> read_hyperbolic_conditions(const Imported_mesh<Tria
 ///   \cgalParamNBegin{cone_angle_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamNEnd
 ///   \cgalParamNBegin{border_angle_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamDefault{pi: borders are geodesics} \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_is_constrained_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamNEnd
-///   \cgalParamNBegin{prescribed_log_scale_factor_map} \cgalParamDescription{as in `read_conditions()`: sinh(l/2) becomes e^{(u_i + u_j) / 2} times half the length given} \cgalParamNEnd
+///   \cgalParamNBegin{prescribed_log_scale_factor_map} \cgalParamDescription{as in `read_conditions()`: sinh(l/2) becomes e^{(u_i + u_j) / 2}
+///   times half the length given} \cgalParamNEnd
 ///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, retriangulation, initial_log_scale_factor_map, sparse_linear_solver, visitor}
 ///     \cgalParamDescription{as in `compute_hyperbolic_metric()`} \cgalParamNEnd
 ///   \cgalParamNBegin{log_scale_factor_map}
@@ -88,7 +91,8 @@ Conformal_conditions<double> read_hyperbolic_conditions(const Imported_mesh<Tria
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \return what was found. Vertices and faces are numbered as in `vertices(tm)` and `faces(tm)`, the halfedge `3f + k` is the `k`-th after `halfedge(f, tm)`, and edges are numbered in the order of their first halfedge
+/// \return what was found. Vertices and faces are numbered as in `vertices(tm)` and `faces(tm)`, the halfedge `3f + k` is the `k`-th after
+/// `halfedge(f, tm)`, and edges are numbered in the order of their first halfedge
 ///         (see `Imported_mesh`). Statuses: those of `import_mesh()`, `MISSING_CONDITION` (vertices), and those of `compute_hyperbolic_metric()`.
 ///
 /// Time is that of `compute_hyperbolic_metric()`, and O(n log n) for loops and layout.

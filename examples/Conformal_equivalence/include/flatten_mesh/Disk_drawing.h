@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A picture of a closed hyperbolic surface in Poincare's disk: the domain that is laid out, its triangles with sides along geodesics, which are arcs of
-// circles orthogonal to the unit circle, and the outlines of its copies around it.
+// A picture of a closed hyperbolic surface in Poincare's disk: the domain that is laid out, its triangles with sides along geodesics, which are
+// arcs of circles orthogonal to the unit circle, and the outlines of its copies around it.
 
 #ifndef FLATTEN_MESH_DISK_DRAWING_H
 #define FLATTEN_MESH_DISK_DRAWING_H
@@ -104,7 +104,8 @@ private:
   void write_domain(Text_buffer& out) const
   {
     const std::uint32_t most_faces_with_edges = 50000;
-    out << "<path fill=\"#d7e3f1\" fill-opacity=\"0.9\" stroke=\"#7d97b5\" stroke-width=\"" << (t_.number_of_faces() > most_faces_with_edges ? 0. : 0.0006) << "\" d=\"";
+    out << "<path fill=\"#d7e3f1\" fill-opacity=\"0.9\" stroke=\"#7d97b5\" stroke-width=\""
+        << (t_.number_of_faces() > most_faces_with_edges ? 0. : 0.0006) << "\" d=\"";
     for(std::uint32_t h = 0; h < t_.number_of_halfedges(); h += 3)
     {
       out << 'M';

@@ -1,9 +1,9 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Isometries of the hyperbolic plane and points of the unit disk in rational numbers. An isometry is a matrix of integers without a common factor, up to
-// sign, and of positive determinant: an element of PGL(2, Q), as it acts on the upper half plane; on the disk it acts as its conjugate by the Cayley map
-// z -> (z - i) / (z + i), which has Gaussian integers.
+// Isometries of the hyperbolic plane and points of the unit disk in rational numbers. An isometry is a matrix of integers without a common factor,
+// up to sign, and of positive determinant: an element of PGL(2, Q), as it acts on the upper half plane; on the disk it acts as its conjugate by
+// the Cayley map z -> (z - i) / (z + i), which has Gaussian integers.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_EXACT_ISOMETRY_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_EXACT_ISOMETRY_H
@@ -95,7 +95,8 @@ inline Gaussian_integer polar_product(const Exact_disk_point& p, const Exact_dis
   return Gaussian_integer{Rational_numerator(p.d * q.d), Rational_numerator(0)} + -(p.n * conj(q.n));
 }
 
-// The product of (1 - p conj(q)) around a triangle: its argument is half of the signed area. The triangle is counterclockwise iff the imaginary part is positive.
+// The product of (1 - p conj(q)) around a triangle: its argument is half of the signed area. The triangle is counterclockwise iff the imaginary
+// part is positive.
 inline Gaussian_integer half_area_vector(const Exact_disk_point& p, const Exact_disk_point& q, const Exact_disk_point& r)
 {
   return polar_product(p, q) * polar_product(q, r) * polar_product(r, p);

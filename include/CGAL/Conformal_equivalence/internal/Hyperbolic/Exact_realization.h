@@ -3,8 +3,9 @@
 
 // The engine of `realize_exactly()`: rational generators with the relation exactly, rational points, and the certificate.
 //
-// Every triangle is counterclockwise by an exact predicate. Around each vertex the triangles then turn k times, k >= 1, as the labels of a face have the product 1
-// in the group. Gauss-Bonnet makes the sum of all areas 2 pi (2g - 2 - sum of (k - 1)): of which multiple it is, numbers rounded to `double` tell.
+// Every triangle is counterclockwise by an exact predicate. Around each vertex the triangles then turn k times, k >= 1, as the labels of a face
+// have the product 1 in the group. Gauss-Bonnet makes the sum of all areas 2 pi (2g - 2 - sum of (k - 1)): of which multiple it is, numbers
+// rounded to `double` tell.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_EXACT_REALIZATION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_EXACT_REALIZATION_H

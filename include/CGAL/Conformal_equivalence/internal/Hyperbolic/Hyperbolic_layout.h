@@ -5,8 +5,8 @@
 //
 // Of every vertex the chosen lift (see Loop_system.h) has a frame: the isometry that takes the center to the lift, and the direction to the right to
 // that of the first halfedge of the vertex. From the frame of i that of j follows along a halfedge: a turn, a translation, a turn; with
-// half angles and sinh(l/2) all of that is algebraic. Along the tree of shortest paths this defines the frames; along any other halfedge what comes out
-// is the frame of j, moved by the deck transformation of its label.
+// half angles and sinh(l/2) all of that is algebraic. Along the tree of shortest paths this defines the frames; along any other halfedge what
+// comes out is the frame of j, moved by the deck transformation of its label.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_HYPERBOLIC_LAYOUT_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_HYPERBOLIC_LAYOUT_H

@@ -193,14 +193,28 @@ private:
     return 4 * std::numeric_limits<double>::epsilon() * largest;
   }
 
+  // Where there is nearly no area the Hessian is nearly that of a flat metric, singular up to rounding: then its diagonal gets a little more.
   bool factorize()
   {
-    Eigen::SparseMatrix<double> hessian = energy_->hessian(graph_);
+    const Eigen::SparseMatrix<double> hessian = energy_->hessian(graph_);
     if(energy_->flips().size() != flips_of_pattern_)
       factorization_->forget_pattern();
     flips_of_pattern_ = energy_->flips().size();
-    ++metric_.statistics.number_of_factorizations;
-    return factorization_->factor(std::move(hessian));
+    for(const double more : {0., 1e-13, 1e-11, 1e-9})
+    {
+      ++metric_.statistics.number_of_factorizations;
+      if(factorization_->factor(with_larger_diagonal(hessian, more)))
+        return true;
+    }
+    return false;
+  }
+
+  // The diagonal times 1 + `more`, of the lower half of a matrix.
+  static Eigen::SparseMatrix<double> with_larger_diagonal(Eigen::SparseMatrix<double> lower, double more)
+  {
+    for(int c = 0; more > 0 && c < lower.outerSize(); ++c)
+      lower.valuePtr()[lower.outerIndexPtr()[c]] *= 1 + more;
+    return lower;
   }
 
   // d = H^-1 r on the free vertices, with the matrix last factorized.
@@ -250,7 +264,8 @@ private:
     options_.visitor.on_iteration(iteration, size);
   }
 
-  // Goes along d, from u, as far as E does not rise at the end more than half as steeply as it falls at the beginning. The slope of 2 E along d is -r.d.
+  // Goes along d, from u, as far as E does not rise at the end more than half as steeply as it falls at the beginning. The slope of 2 E along d is
+  // -r.d.
   bool step(const Vertex_vector& d, Vertex_vector& r, double& size)
   {
     const double slope = dot(r, d), longest_step = 5; // in u: far away triangulations are flipped in vain
@@ -287,7 +302,8 @@ private:
     std::vector<Wide>& s = metric_.scale_factors;
     s.resize(u_.size());
     for(Index v = 0; v < u_.size(); ++v)
-      s[v] = graph_.is_free(v) || given_.is_isolated_vertex(v) ? Wide(std::exp(u_[v] / 2)) : Wide(exp(Wide(Wide(conditions_.log_scale_factor(v)) / 2)));
+      s[v] = graph_.is_free(v) || given_.is_isolated_vertex(v) ? Wide(std::exp(u_[v] / 2))
+                                                               : Wide(exp(Wide(Wide(conditions_.log_scale_factor(v)) / 2)));
     const int most_rounds = 10; // of flips that rounding in `double` had hidden
     Wide size(0);
     for(int round = 0; round < most_rounds; ++round)

@@ -1,10 +1,10 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Rational matrices near given generators of the group of a closed surface, for which the relation holds exactly, for any genus. A pair of letters that
-// interleave is split off: the relation becomes [a, b] W = 1, with a word W in the other generators, which are merely rounded. With C = W^-1
-// and X = a^-1 what is left is [a, b] = C, that is b X b^-1 = X C. There is such a b iff tr(X C) = tr(X), one linear equation for X, which is met by the
-// change of one entry; and then b X = X C b is linear in b: for every N,  b = X C N - N adj(X)  solves it, and N = b (2 X - tr X)^-1 would be
+// Rational matrices near given generators of the group of a closed surface, for which the relation holds exactly, for any genus. A pair of letters
+// that interleave is split off: the relation becomes [a, b] W = 1, with a word W in the other generators, which are merely rounded. With C = W^-1
+// and X = a^-1 what is left is [a, b] = C, that is b X b^-1 = X C. There is such a b iff tr(X C) = tr(X), one linear equation for X, which is met
+// by the change of one entry; and then b X = X C b is linear in b: for every N,  b = X C N - N adj(X)  solves it, and N = b (2 X - tr X)^-1 would be
 // the N of the b given, if that solved it, too.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_EXACT_GROUP_H

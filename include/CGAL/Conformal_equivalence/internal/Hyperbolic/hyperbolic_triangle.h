@@ -72,7 +72,8 @@ private:
 
 // The weights w_k of the sides in the Hessian: where u changes by d at the corners, the angle sums change such that
 //
-//   sum over corners of (change of the angle) d = - sum over sides w_k ( (d_i - d_j)^2 + tanh^2(l_k/2) (d_i + d_j)^2 ),   w_k = tan((alpha_i + alpha_j - alpha_k) / 2) / 2.
+//   sum over corners of (change of the angle) d = - sum over sides w_k ( (d_i - d_j)^2 + tanh^2(l_k/2) (d_i + d_j)^2 ),   w_k = tan((alpha_i +
+//   alpha_j - alpha_k) / 2) / 2.
 //
 // A triangle has a circumscribed circle iff the chords form a triangle. With R its radius, sinh R = 2 (radius of the circle around the
 // triangle with sides x), and gamma_k the angle of that triangle opposite to the side,  w_k = cot(gamma_k) / (2 cosh R): both triangles at

@@ -64,7 +64,10 @@ public:
     inverse_[n] = letter > 0 ? x.inverse() : x;
   }
 
-  const Element& operator[](std::int32_t letter) const { return letter > 0 ? generator_[std::size_t(letter - 1)] : inverse_[std::size_t(-letter - 1)]; }
+  const Element& operator[](std::int32_t letter) const
+  {
+    return letter > 0 ? generator_[std::size_t(letter - 1)] : inverse_[std::size_t(-letter - 1)];
+  }
 
   Element operator()(const Word& w) const
   {
@@ -169,9 +172,9 @@ inline bool split_off(Word& w, Interleaved_pair& pair)
   return true;
 }
 
-// Canonical generators a_1, b_1, ..., a_g, b_g for the generators of a one-relator presentation of the group of a closed surface, as words in these: the
-// product of commutators [a_i, b_i] = a_i b_i a_i^-1 b_i^-1 is the relation (the normal form of closed surfaces, by cutting and pasting; H. R. Brahana,
-// "Systems of circuits on two-dimensional manifolds", 1921). None if the relation is not that of a closed orientable surface.
+// Canonical generators a_1, b_1, ..., a_g, b_g for the generators of a one-relator presentation of the group of a closed surface, as words in
+// these: the product of commutators [a_i, b_i] = a_i b_i a_i^-1 b_i^-1 is the relation (the normal form of closed surfaces, by cutting and
+// pasting; H. R. Brahana, "Systems of circuits on two-dimensional manifolds", 1921). None if the relation is not that of a closed orientable surface.
 inline std::vector<Word> canonical_generators(Word relation)
 {
   std::vector<Word> result;
