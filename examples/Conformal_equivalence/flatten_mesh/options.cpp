@@ -48,7 +48,8 @@ po::options_description visible_options()
        "sphere: the unit sphere, for closed surfaces without handles; the vertices of the OBJ file are points of the sphere\n"
        "disk: the unit disk, for topological disks; all border vertices are on the circle\n"
        "hyperbolic: the hyperbolic surface, in Poincare's disk, for one connected surface of negative Euler characteristic; borders become "
-       "geodesics. Written are the disk coordinates of the corners (-o), a picture with copies (--svg, --html), and the group, rounded and in exact numbers (--report)\n"
+       "geodesics. Written are the disk coordinates of the corners (-o), a picture with copies (--svg, --html), and the group, "
+       "rounded and in exact numbers (--report)\n"
        "Several components: each has a sphere or disk of its own, the i-th (from 0) of n with its centre in (2.25 (i mod c), 2.25 floor(i / c), 0), "
        "where c is the root of n, rounded up; spheres are objects component_i of the OBJ file, unless INPUT has objects")
     ("moebius-weights", po::value<std::string>()->default_value("vertices"), "vertices | areas: what has its barycentre in the centre "
