@@ -38,8 +38,8 @@ namespace Conformal_equivalence {
 /// \tparam NamedParameters a sequence of \ref bgl_namedparameters "Named Parameters"
 ///
 /// \param t a surface of any topology, with Euclidean lengths, which need not satisfy the triangle inequality
-/// \param conditions one per vertex; lower bounds are not taken. A border whose u is fixed keeps its edges. (For borders that are to be
-///        geodesics, see `uniformize_hyperbolic()`.)
+/// \param conditions one per vertex. A border whose u is fixed keeps its edges. (For borders that are to be geodesics, see
+///        `uniformize_hyperbolic()`.)
 /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
 ///
 /// \cgalNamedParamsBegin
@@ -49,16 +49,18 @@ namespace Conformal_equivalence {
 ///     \cgalParamDefault{constant where u is not fixed: such that the Euclidean area is about the hyperbolic one} \cgalParamNEnd
 ///   \cgalParamNBegin{retriangulation}
 ///     \cgalParamDescription{with `Retriangulation::ALWAYS` the surface that is scaled is the intrinsic Delaunay triangulation of the metric
-///     given, so that the result does not depend on
-///       how flat polygons are triangulated; with all other values it is the triangulation given. Edges are flipped in any case}
+///       given, so that the result does not depend on how flat polygons are triangulated; with all other values it is the triangulation given.
+///       Edges are flipped in any case}
 ///     \cgalParamType{`Retriangulation`}
 ///     \cgalParamDefault{`Retriangulation::WHEN_NEEDED`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{sparse_linear_solver} \cgalParamDescription{as in `compute_conformal_metric()`} \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
+/// \pre there are no lower bounds on u among the conditions
+///
 /// \return the metric, with a status: `OK`, `CONVERGED_TO_ROUNDING`; `EMPTY_MESH`, `INVALID_NUMBER`, `ANGLE_OUT_OF_RANGE` as in
-/// `Conformal_metric_solver::solve()`;
+///         `Conformal_metric_solver::solve()`;
 ///         `WRONG_TOPOLOGY` (one face of every component without cones whose Euler characteristic is not negative; `amount`: 2 pi times it, which
 ///         the curvatures 2 pi - angle of cones must exceed), `GAUSS_BONNET_VIOLATED` (the vertices with prescribed angles that are not flat: they
 ///         leave the area `amount` <= 0), `NO_ANGLE_LEFT` (the vertices of fixed u): there is no such metric, nothing was computed;

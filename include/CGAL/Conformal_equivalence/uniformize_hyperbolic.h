@@ -92,8 +92,8 @@ Conformal_conditions<double> read_hyperbolic_conditions(const Imported_mesh<Tria
 /// \cgalNamedParamsEnd
 ///
 /// \return what was found. Vertices and faces are numbered as in `vertices(tm)` and `faces(tm)`, the halfedge `3f + k` is the `k`-th after
-/// `halfedge(f, tm)`, and edges are numbered in the order of their first halfedge
-///         (see `Imported_mesh`). Statuses: those of `import_mesh()`, `MISSING_CONDITION` (vertices), and those of `compute_hyperbolic_metric()`.
+///         `halfedge(f, tm)`, and edges are numbered in the order of their first halfedge (see `Imported_mesh`). Statuses:
+///         those of `import_mesh()`, `MISSING_CONDITION` (vertices), and those of `compute_hyperbolic_metric()`.
 ///
 /// Time is that of `compute_hyperbolic_metric()`, and O(n log n) for loops and layout.
 ///

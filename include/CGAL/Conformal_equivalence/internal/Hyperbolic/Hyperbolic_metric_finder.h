@@ -107,7 +107,7 @@ public:
 private:
   void run()
   {
-    CGAL_precondition(conditions_.size() == given_.number_of_vertices());
+    CGAL_precondition(conditions_.size() == given_.number_of_vertices() && !conditions_.has_bounds());
     options_.visitor.on_stage(Stage::SOLVE);
     metric_.triangulation = given_;
     if(given_.number_of_faces() == 0)

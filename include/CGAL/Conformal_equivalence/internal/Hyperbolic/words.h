@@ -178,9 +178,12 @@ inline bool split_off(Word& w, Interleaved_pair& pair)
 inline std::vector<Word> canonical_generators(Word relation)
 {
   std::vector<Word> result;
+  Interleaved_pair pair;
+  Word rest = relation;
+  if(split_off(rest, pair)) // a relation may begin anywhere: what stands before the first pair would conjugate it, and make it long
+    std::rotate(relation.begin(), relation.begin() + std::ptrdiff_t(pair.s.size()), relation.end());
   while(!relation.empty())
   {
-    Interleaved_pair pair;
     if(!split_off(relation, pair))
       return std::vector<Word>();
     result.push_back(pair.a());
