@@ -3,9 +3,9 @@
 
 // hyperbolic MESH...
 //
-// Hyperbolic surfaces of closed meshes; those that are not connected or have a genus below 2 are passed over. `plate:N:G` is a thin plate of about N vertices
-// with G handles. Beside the seconds of the hyperbolic metric those of a Euclidean one of the same mesh, also with flips, whose curvature is spread evenly over the vertices.
-// Processor seconds.
+// Hyperbolic surfaces of closed meshes; those that are not connected or have a genus below 2 are passed over. `plate:N:G` is a thin plate of about
+// N vertices with G handles. Beside the seconds of the hyperbolic metric those of a Euclidean one of the same mesh, also with flips, whose
+// curvature is spread evenly over the vertices. Processor seconds.
 
 #include "../include/Processor_stopwatch.h"
 #include "../include/benchmark_meshes.h"
@@ -84,8 +84,8 @@ void print(const std::string& specification)
 
 int main(int argc, char* argv[])
 {
-  print_head({ "mesh", "vertices", "genus", "metric", "steps", "flips", "residual", "area error", "s", "s Euclidean", "s with layout", "relation error",
-               "exact", "digits", "length difference", "s exact" });
+  print_head({ "mesh", "vertices", "genus", "metric", "steps", "flips", "residual", "area error", "s", "s Euclidean", "s with layout",
+               "relation error", "exact", "digits", "length difference", "s exact" });
   for(int i = 1; i < argc; ++i)
     try
     {

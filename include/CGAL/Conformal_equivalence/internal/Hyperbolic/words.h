@@ -173,8 +173,9 @@ inline bool split_off(Word& w, Interleaved_pair& pair)
 }
 
 // Canonical generators a_1, b_1, ..., a_g, b_g for the generators of a one-relator presentation of the group of a closed surface, as words in
-// these: the product of commutators [a_i, b_i] = a_i b_i a_i^-1 b_i^-1 is the relation (the normal form of closed surfaces, by cutting and
-// pasting; H. R. Brahana, "Systems of circuits on two-dimensional manifolds", 1921). None if the relation is not that of a closed orientable surface.
+// these: the product of commutators [a_i, b_i] = a_i b_i a_i^-1 b_i^-1 is the relation, begun somewhere else (the normal form of closed surfaces,
+// by cutting and pasting; H. R. Brahana, "Systems of circuits on two-dimensional manifolds", 1921). None if the relation is not that of a closed
+// orientable surface.
 inline std::vector<Word> canonical_generators(Word relation)
 {
   std::vector<Word> result;
