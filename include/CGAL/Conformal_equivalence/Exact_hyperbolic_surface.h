@@ -44,7 +44,8 @@ public:
   /// The motion z -> (a z + b) / (conj(b) z + conj(a)) of the disk, in complex numbers whose parts are integers.
   struct Motion
   {
-    std::array<Exact_rational, 2> a, b;
+    std::array<Exact_rational, 2> a; ///< real and imaginary part
+    std::array<Exact_rational, 2> b; ///< real and imaginary part
   };
 
   /// constructs no surface.

@@ -40,7 +40,8 @@ struct Hyperbolic_uniformization : public Outcome
   /// The motion z -> (a z + b) / (conj(b) z + conj(a)) of the disk, with |a|^2 - |b|^2 = 1, in complex numbers.
   struct Motion
   {
-    std::array<double, 2> a, b;
+    std::array<double, 2> a; ///< real and imaginary part
+    std::array<double, 2> b; ///< real and imaginary part
   };
 
   Hyperbolic_metric<double> metric;   ///< lengths and scale factors; its `triangulation` is the one that is Delaunay
@@ -52,6 +53,7 @@ struct Hyperbolic_uniformization : public Outcome
   /// @{
 
   std::vector<std::array<double, 2> > vertex_points; ///< the chosen lifts, by vertex
+
   /// by halfedge of the triangulation *given*: where its target lies in the domain that is laid out
   std::vector<std::array<double, 2> > corner_points;
   std::vector<char> is_seam;                         ///< by edge of the triangulation given: whether its sides lie at different places
@@ -65,9 +67,11 @@ struct Hyperbolic_uniformization : public Outcome
 
   std::vector<Motion> generators;                    ///< of 2g loops through one vertex, the shortest ones
   std::vector<std::int32_t> relation;                ///< the relation of the generators, a word of 4g letters
+
   /// canonical generators a_1, b_1, ..., a_g, b_g, for which the product of commutators a_1 b_1 a_1^-1 b_1^-1 ... is 1, as words in `generators`
   std::vector<std::vector<std::int32_t> > canonical_words;
   std::vector<Motion> canonical_generators;          ///< the canonical generators
+
   /// how far the relation, computed from generators with twice the digits of `double`, is from the identity
   double relation_error = 0;
 

@@ -48,9 +48,7 @@ namespace Conformal_equivalence {
 ///   \cgalParamNBegin{initial_log_scale_factor_map} \cgalParamDescription{as in `Conformal_metric_solver::solve()`}
 ///     \cgalParamDefault{constant where u is not fixed: such that the Euclidean area is about the hyperbolic one} \cgalParamNEnd
 ///   \cgalParamNBegin{retriangulation}
-///     \cgalParamDescription{with `Retriangulation::ALWAYS` the surface that is scaled is the intrinsic Delaunay triangulation of the metric
-///       given, so that the result does not depend on how flat polygons are triangulated; with all other values it is the triangulation given.
-///       Edges are flipped in any case}
+///     \cgalParamDescription{with `Retriangulation::ALWAYS` the surface that is scaled is the intrinsic Delaunay triangulation of the metric given, so that the result does not depend on how flat polygons are triangulated; with all other values it is the triangulation given. Edges are flipped in any case}
 ///     \cgalParamType{`Retriangulation`}
 ///     \cgalParamDefault{`Retriangulation::WHEN_NEEDED`}
 ///   \cgalParamNEnd

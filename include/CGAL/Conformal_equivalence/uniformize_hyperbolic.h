@@ -80,8 +80,7 @@ Conformal_conditions<double> read_hyperbolic_conditions(const Imported_mesh<Tria
 ///   \cgalParamNBegin{cone_angle_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamNEnd
 ///   \cgalParamNBegin{border_angle_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamDefault{pi: borders are geodesics} \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_is_constrained_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamNEnd
-///   \cgalParamNBegin{prescribed_log_scale_factor_map} \cgalParamDescription{as in `read_conditions()`: sinh(l/2) becomes e^{(u_i + u_j) / 2}
-///   times half the length given} \cgalParamNEnd
+///   \cgalParamNBegin{prescribed_log_scale_factor_map} \cgalParamDescription{as in `read_conditions()`: sinh(l/2) becomes e^{(u_i + u_j) / 2} times half the length given} \cgalParamNEnd
 ///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, retriangulation, initial_log_scale_factor_map, sparse_linear_solver, visitor}
 ///     \cgalParamDescription{as in `compute_hyperbolic_metric()`} \cgalParamNEnd
 ///   \cgalParamNBegin{log_scale_factor_map}

@@ -160,8 +160,15 @@ private:
     for(Index e = 0; e < original.number_of_edges(); ++e)
     {
       const Index h = original.edge_halfedge(e), g = original.twin(h);
-      result_.is_seam.push_back(origin_word[g] != origin_word[original.next(h)] || origin_word[h] != origin_word[original.next(g)]);
+      result_.is_seam.push_back(!are_equal(origin_word[g], origin_word[original.next(h)], deck));
     }
+  }
+
+  // Different words may stand for the same motion, where the relation is at work; and different motions are far apart, compared with rounding.
+  static bool are_equal(const Word& v, const Word& w, Word_values<Motion>& deck)
+  {
+    const double less_than_any_translation = 1e-10;
+    return v == w || (deck(v).inverse() * deck(w)).distance_from_identity() < less_than_any_translation;
   }
 
   const Triangulation& given_;
