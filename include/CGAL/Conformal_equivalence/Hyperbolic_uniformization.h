@@ -49,7 +49,7 @@ struct Hyperbolic_uniformization : public Outcome
   bool is_doubled = false;            ///< whether `metric`, and all that follows, is that of the double of a surface with border
 
   /// \name Layout
-  /// Empty if nothing was laid out: if the surface is not connected, has cones, or a border with prescribed u.
+  /// Empty if nothing was laid out: if the surface is not connected, has cones, a border with prescribed u, or vertices without a face.
   /// @{
 
   std::vector<std::array<double, 2> > vertex_points; ///< the chosen lifts, by vertex
