@@ -363,7 +363,10 @@ BOOST_AUTO_TEST_CASE(hessian_is_the_derivative_of_the_gradient)
     for(Index v = 0; v < n; ++v)
       worst = (std::max)(worst, std::abs((sums[0][v] - sums[1][v]) / (2 * step) - product[v]));
     BOOST_TEST(worst < 1e-8);
-    BOOST_TEST(Eigen::Map<const Eigen::VectorXd>(d.data(), n).dot(product) > 0);
+    double curvature = 0;
+    for(Index v = 0; v < n; ++v)
+      curvature += d[v] * product[v];
+    BOOST_TEST(curvature > 0);
   }
 }
 
