@@ -23,10 +23,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace CE = CGAL::Conformal_equivalence;
 namespace SMP = CGAL::Surface_mesh_parameterization;
@@ -85,9 +87,30 @@ bool all_is_well(const std::string& type)
     return failed("the size of " + type);
   if(!CE::map_to_disk(mesh, vertex_uv))
     return failed("map_to_disk of " + type);
+  if(CE::uniformize_hyperbolic(mesh).status != CE::Status::WRONG_TOPOLOGY)
+    return failed("uniformize_hyperbolic of " + type);
 
   std::ostringstream out;
   return CE::IO::write_OBJ(out, mesh, uv) || failed("write_OBJ of " + type);
+}
+
+// An octagon of which opposite sides are glued, as a fan of six triangles: a surface of genus 2 with one vertex.
+bool hyperbolic_surface_is_well()
+{
+  const std::vector<std::uint32_t> twin = {10, 13, 3, 2, 16, 6, 5, 17, 9, 8, 0, 12, 11, 1, 15, 14, 4, 7};
+  const CE::Intrinsic_triangulation<> octagon(1, std::vector<std::uint32_t>(twin.size(), 0), twin);
+  const auto u = CE::internal::Uniformization::run(octagon, CE::Conformal_conditions<>(octagon), CE::Solver_options(),
+                                                   CE::internal::make_factorization<CE::Default_solver_traits>());
+  if(!u.is_laid_out() || !(std::fabs(u.metric.length(0) - 2 * std::acosh(1 / (2 * std::sin(CGAL_PI / 18)))) < 1e-12))
+    return failed("the metric of an octagon");
+  const auto exact = CE::realize_exactly(u);
+  if(exact.status != CE::Status::OK)
+    return failed("realize_exactly");
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_HAS_HYPERBOLIC_SURFACES
+  if(!CE::make_triangulation_on_hyperbolic_surface(exact).is_valid())
+    return failed("make_triangulation_on_hyperbolic_surface");
+#endif
+  return true;
 }
 
 // 3.4.0, and from 5 on without the world version
@@ -105,6 +128,7 @@ int main()
             << ", Boost " << BOOST_LIB_VERSION << std::endl;
 
   const bool ok = all_is_well<CGAL::Surface_mesh<Kernel::Point_3> >("Surface_mesh")
-               && all_is_well<CGAL::Polyhedron_3<Kernel> >("Polyhedron_3");
+               && all_is_well<CGAL::Polyhedron_3<Kernel> >("Polyhedron_3")
+               && hyperbolic_surface_is_well();
   return ok ? 0 : 1;
 }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The program flatten_mesh with --target sphere and --target disk.
+// The program flatten_mesh with --target sphere, disk and hyperbolic.
 
 #define BOOST_TEST_MODULE test_flatten_mesh_sphere_and_disk
 #include "include/boost_test.h"
@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -763,4 +764,54 @@ BOOST_AUTO_TEST_CASE(sphere_and_disk_are_refused)
     check_refused({"a.off", "--target", "disk", "--disk-points", bad}, 2, "--disk-points takes the indices of three different vertices");
   }
   check_refused({"a.off", "--target", "disk", "--disk-points", "1,2,2"}, 2, "three different vertices");
+}
+
+// The corners of a closed surface of genus 2 in the disk, its picture, and its group.
+BOOST_AUTO_TEST_CASE(target_hyperbolic, * testing::needs_mesh("eight.off"))
+{
+  const Folder folder;
+  const std::string mesh = testing::mesh_path("eight.off"), obj = folder / "eight.obj", svg = folder / "eight.svg", html = folder / "eight.html";
+  std::vector<std::string> arguments = {mesh, "--target", "hyperbolic", "-o", obj, "--svg", svg, "--html", html};
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const std::string report = folder / "eight.json";
+  arguments.insert(arguments.end(), {"--report", report});
+#endif
+  const Run done = run(arguments);
+  BOOST_TEST_REQUIRE(done.status == 0);
+  BOOST_TEST(contains(done.out, "genus 2"));
+  BOOST_TEST(contains(content(svg), "<circle"));
+  BOOST_TEST(contains(content(html), "</html>"));
+
+  std::istringstream lines(content(obj));
+  std::size_t corners = 0;
+  for(std::string line; std::getline(lines, line); )
+  {
+    std::istringstream words(line);
+    std::string kind;
+    double x = 1, y = 1;
+    if(!(words >> kind) || kind != "vt")
+      continue;
+    ++corners;
+    BOOST_TEST(bool(words >> x >> y));
+    BOOST_TEST(std::hypot(x, y) < 1);
+  }
+  BOOST_TEST(corners > 315u); // those of vertices on seams have several places
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const nlohmann::json figures = nlohmann::json::parse(content(report));
+  BOOST_TEST(figures["genus"] == 2);
+  BOOST_TEST(std::abs(figures["area"].get<double>() - 4 * testing::pi) < 1e-12);
+  BOOST_TEST(figures["relation_error"].get<double>() < 1e-20);
+  BOOST_TEST(figures["generators"].size() == 4u);
+  BOOST_TEST(figures["exact"]["canonical_generators"].size() == 4u);
+#endif
+
+  const std::set<std::string> before = folder.files();
+  const std::string ball = write_off(folder, "ball.off", testing::icosahedron()), other = folder / "other.svg";
+  check_refused({ball, "--target", "hyperbolic", "--svg", other}, 1, "has no hyperbolic metric without cones");
+  std::set<std::string> after = folder.files();
+  after.erase("ball.off");
+  BOOST_TEST(after == before, boost::test_tools::per_element());
+  for(const std::string option : {"--cones", "--precision", "--frame"})
+    check_refused({"a.off", "--target", "hyperbolic", option, option == "--frame" ? "unit-square" : "80"}, 2, option);
 }

@@ -7,6 +7,7 @@
 #include "../include/flatten_mesh/explain.h"
 #include "../include/flatten_mesh/figures.h"
 #include "../include/flatten_mesh/Given_surface.h"
+#include "../include/flatten_mesh/hyperbolic.h"
 #include "../include/flatten_mesh/mesh.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/OBJ_attribute_writer.h"
@@ -111,6 +112,8 @@ std::string reason_of_failure(const Options& options, const Given_surface& given
 // Reads, solves, judges, writes; throws a `Failure` that says what went wrong.
 void run(const Options& given_options, std::ostream& out, std::ostream& err)
 {
+  if(given_options.target == Target::HYPERBOLIC)
+    return run_hyperbolic(given_options, out, err);
   Options options = given_options;
   Material_files beside(options.target == Target::SPHERE ? "" : options.obj); // there is no texture on the sphere
   Output_files files(out);

@@ -47,6 +47,9 @@ po::options_description visible_options()
     ("target", po::value<std::string>()->default_value("plane"), "plane\n"
        "sphere: the unit sphere, for closed surfaces without handles; the vertices of the OBJ file are points of the sphere\n"
        "disk: the unit disk, for topological disks; all border vertices are on the circle\n"
+       "hyperbolic: the hyperbolic surface, in Poincare's disk, for one connected surface of negative Euler characteristic; borders become "
+       "geodesics. Written are the disk coordinates of the corners (-o), a picture with copies (--svg, --html), and the group, "
+       "rounded and in exact numbers (--report)\n"
        "Several components: each has a sphere or disk of its own, the i-th (from 0) of n with its centre in (2.25 (i mod c), 2.25 floor(i / c), 0), "
        "where c is the root of n, rounded up; spheres are objects component_i of the OBJ file, unless INPUT has objects")
     ("moebius-weights", po::value<std::string>()->default_value("vertices"), "vertices | areas: what has its barycentre in the centre "
@@ -109,7 +112,7 @@ void refuse_unknown_values(const po::variables_map& values)
     if(std::find(known.begin(), known.end(), value) == known.end())
       throw Usage_error(text("unknown value '", value, "' of --", name));
   };
-  check("target", {"plane", "sphere", "disk"});
+  check("target", {"plane", "sphere", "disk", "hyperbolic"});
   check("moebius-weights", {"vertices", "areas"});
   check("frame", {"canonical", "unit-square"});
   check("retriangulate", {"never", "when-needed", "always"});
@@ -218,6 +221,8 @@ void parse_options_of_target(const po::variables_map& values, const std::string&
   require(options.target == Target::DISK, values, "--target disk", {"disk-centre", "disk-points"});
   if(options.target == Target::PLANE)
     return;
+  if(options.target == Target::HYPERBOLIC)
+    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by", "precision"});
   exclude(values, target, {"cones", "seamless", "frame", "keep-border", "local-repair"});
   if(options.target == Target::SPHERE)
     exclude(values, target, {"projective", "html"});
@@ -235,7 +240,7 @@ void parse_target(const po::variables_map& values, Options& options)
   if(values.count("boundary") && ((is_boundary_disk && is_given && name != "disk") || (! is_boundary_disk && name != "plane")))
     throw Usage_error(text(option, " and --boundary ", values["boundary"].as<std::vector<std::string> >()[0], " exclude each other"));
   if(! is_boundary_disk)
-    options.target = name == "sphere" ? Target::SPHERE : name == "disk" ? Target::DISK : Target::PLANE;
+    options.target = name == "sphere" ? Target::SPHERE : name == "disk" ? Target::DISK : name == "hyperbolic" ? Target::HYPERBOLIC : Target::PLANE;
   parse_options_of_target(values, is_boundary_disk && ! is_given ? "--boundary disk" : option, options);
 }
 

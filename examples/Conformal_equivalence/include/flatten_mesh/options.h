@@ -13,7 +13,7 @@
 
 namespace flattening {
 
-enum class Target { PLANE, SPHERE, DISK };
+enum class Target { PLANE, SPHERE, DISK, HYPERBOLIC };
 
 // The command line, as values.
 struct Options

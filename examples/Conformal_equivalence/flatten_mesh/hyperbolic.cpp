@@ -1,0 +1,248 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The hyperbolic surface that a mesh is conformally equivalent to: its picture, its group, its figures.
+
+#include "../include/flatten_mesh/hyperbolic.h"
+#include "../include/flatten_mesh/Disk_drawing.h"
+#include "../include/flatten_mesh/figures.h"
+#include "../include/flatten_mesh/Given_surface.h"
+#include "../include/flatten_mesh/mesh.h"
+#include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/Output_files.h"
+#include "../include/flatten_mesh/page_text.h"
+#include "../include/flatten_mesh/Progress.h"
+#include "../include/flatten_mesh/Solver_traits.h"
+#include "../include/flatten_mesh/Stopwatch.h"
+#include "../include/flatten_mesh/write_outputs.h"
+
+#include <CGAL/Conformal_equivalence/Exact_hyperbolic_surface.h>
+#include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
+#include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/uniformize_hyperbolic.h>
+
+#include <CGAL/number_utils.h>
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+#  include <nlohmann/json.hpp>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <ostream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flattening {
+
+namespace {
+
+typedef CE::Hyperbolic_uniformization Uniformization;
+typedef CE::Exact_hyperbolic_surface  Exact_surface;
+
+// Up to ten of them, as the file numbers them.
+template <typename Number>
+std::string list_of_elements(const char* one, const char* several, const std::vector<std::uint32_t>& elements, const Number& number)
+{
+  std::set<std::size_t> numbers;
+  for(std::uint32_t x : elements)
+    numbers.insert(number(x));
+  if(numbers.empty())
+    return "";
+  std::string list = text(": ", numbers.size() == 1 ? one : several);
+  std::size_t n = 0;
+  for(std::size_t x : numbers)
+    if(n++ < 10)
+      list += text(n == 1 ? " " : ", ", x);
+  return numbers.size() > 10 ? list + ", ..." : list;
+}
+
+std::string explanation(const Given_surface& given, const Uniformization& u)
+{
+  const std::string faces = list_of_elements("face", "faces", u.faces, [&](std::uint32_t f) { return given.face(Face(f)); }),
+                    vertices = list_of_elements("vertex", "vertices", u.vertices, [&](std::uint32_t v) { return given.vertex(Vertex(v)); });
+  switch(u.status)
+  {
+    case CE::Status::WRONG_TOPOLOGY:
+      return "a surface whose Euler characteristic is not negative has no hyperbolic metric without cones (borders become geodesics)" + faces;
+    case CE::Status::ITERATIONS_EXHAUSTED:
+      return text(CE::message(u.status), ": the residual is ", u.amount);
+    case CE::Status::DEGENERATE_METRIC: // its faces are not those of the file
+      return CE::message(u.status);
+    default:
+      return CE::message(u.status) + vertices + faces;
+  }
+}
+
+Lines summary_of(const Given_surface& given, const Mesh& mesh, const Uniformization& u, const Exact_surface& exact, double seconds)
+{
+  const CE::Statistics& s = u.metric.statistics;
+  Lines lines;
+  lines.emplace_back("mesh", text(mesh.number_of_vertices(), " vertices, ", mesh.number_of_faces(), " triangles",
+                                  given.is_mesh() ? "" : text(", of ", given.number_of_faces, " faces")));
+  lines.emplace_back("hyperbolic surface", text("genus ", u.genus, u.is_doubled ? ", the double of the mesh" : "", ", area ", u.metric.area));
+  lines.emplace_back("Newton steps", text(s.number_of_iterations, ", edges flipped ", u.metric.flips.size()));
+  lines.emplace_back("residual", text(s.residual));
+  lines.emplace_back("u", text(s.least_u, " to ", s.largest_u));
+  lines.emplace_back("error of the relation", text(u.relation_error));
+  if(bool(exact))
+    lines.emplace_back("exact group", text(exact.number_of_digits(), " digits, lengths of edges differ by ", exact.largest_length_difference()));
+  else
+    lines.emplace_back("exact group", text("none: ", CE::message(exact.status)));
+  lines.emplace_back("seconds", text(seconds));
+  return lines;
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+nlohmann::ordered_json json_of(const std::vector<Uniformization::Motion>& motions)
+{
+  nlohmann::ordered_json result = nlohmann::ordered_json::array();
+  for(const Uniformization::Motion& m : motions)
+    result.push_back({ {"a", m.a}, {"b", m.b} });
+  return result;
+}
+
+// Integers of any length, as text.
+nlohmann::ordered_json json_of(const std::vector<Exact_surface::Motion>& motions)
+{
+  const auto parts = [](const std::array<CGAL::Exact_rational, 2>& z)
+  {
+    nlohmann::ordered_json result = nlohmann::ordered_json::array();
+    for(const CGAL::Exact_rational& x : z)
+    {
+      std::ostringstream digits;
+      digits << x;
+      result.push_back(digits.str());
+    }
+    return result;
+  };
+  nlohmann::ordered_json result = nlohmann::ordered_json::array();
+  for(const Exact_surface::Motion& m : motions)
+    result.push_back({ {"a", parts(m.a)}, {"b", parts(m.b)} });
+  return result;
+}
+
+std::string json_report(const Options& options, const Mesh& mesh, const Uniformization& u, const Exact_surface& exact, double seconds)
+{
+  const CE::Statistics& s = u.metric.statistics;
+  nlohmann::ordered_json report;
+  report["input"] = options.input;
+  report["target"] = "hyperbolic";
+  report["vertices"] = mesh.number_of_vertices();
+  report["faces"] = mesh.number_of_faces();
+  report["genus"] = u.genus;
+  report["is_doubled"] = u.is_doubled;
+  report["newton_steps"] = s.number_of_iterations;
+  report["flips"] = u.metric.flips.size();
+  report["residual"] = s.residual;
+  report["u"] = { s.least_u, s.largest_u };
+  report["area"] = u.metric.area;
+  report["relation_error"] = u.relation_error;
+  report["motions"] = "z -> (a z + b) / (conj(b) z + conj(a))";
+  report["generators"] = json_of(u.generators);
+  report["relation"] = u.relation;
+  report["canonical_words"] = u.canonical_words;
+  report["canonical_generators"] = json_of(u.canonical_generators);
+  if(bool(exact))
+    report["exact"] = { {"largest_length_difference", exact.largest_length_difference()}, {"digits", exact.number_of_digits()},
+                        {"generators", json_of(exact.generators())}, {"canonical_generators", json_of(exact.canonical_generators())} };
+  report["seconds"] = seconds;
+  return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+#endif
+
+bool write_page(std::ostream& out, const std::string& title, const Lines& lines, Disk_drawing& drawing)
+{
+  out << "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" << escaped_for_xml(title) << "</title>\n"
+      << "<style>body { font-family: sans-serif; margin: 1.5em; color: #222; } svg { width: 90vmin; height: 90vmin; }\n"
+      << "td { padding: .15em 1em .15em 0; }</style></head><body>\n<h1>" << escaped_for_xml(title) << "</h1>\n";
+  drawing.write(out);
+  out << "<table>\n";
+  for(const auto& line : lines)
+    out << "<tr><td>" << escaped_for_xml(line.first) << "</td><td>" << escaped_for_xml(line.second) << "</td></tr>\n";
+  out << "</table></body></html>\n";
+  return out.good();
+}
+
+// The disk coordinates of the corners.
+UV_map corner_map(Mesh& mesh, const CE::Imported_mesh<Mesh>& imported, const Uniformization& u)
+{
+  UV_map uv = mesh.add_property_map<Halfedge, Kernel::Point_2>("h:disk").first;
+  for(std::uint32_t h = 0; h < imported.triangulation.number_of_halfedges(); ++h)
+    uv[imported.halfedge(h)] = Kernel::Point_2(u.corner_points[h][0], u.corner_points[h][1]);
+  return uv;
+}
+
+} // namespace
+
+void run_hyperbolic(const Options& options, std::ostream& out, std::ostream& err)
+{
+  const Material_files no_material("");
+  Output_files files(out);
+  announce_outputs(options, no_material, files);
+  const Stopwatch watch;
+  Mesh mesh;
+  const Given_surface given = read_surface(options.input, options.repair, mesh);
+  Uniformization u;
+  {
+    Progress progress(err, ! options.quiet && is_terminal(err));
+    Progress_visitor visitor(progress);
+    u = CE::uniformize_hyperbolic(mesh, CGAL::parameters::mollification(options.mollification)
+                                          .gradient_tolerance(options.tolerance)
+                                          .number_of_iterations(options.maximum_number_of_iterations)
+                                          .retriangulation(options.retriangulation)
+                                          .visitor(std::ref(visitor))
+                                          .sparse_linear_solver(Solver_traits(options.solver)));
+  }
+  if(! u)
+    fail(options.input, ": ", explanation(given, u));
+  if(! u.is_laid_out())
+    fail(options.input, ": only connected surfaces are laid out, without vertices that have no face");
+  const Exact_surface exact = CE::realize_exactly(u);
+  const double seconds = watch.seconds();
+  const CE::Imported_mesh<Mesh> imported(mesh);
+  const Lines lines = summary_of(given, mesh, u, exact, seconds);
+  const CE::Intrinsic_triangulation<double> drawn =
+    u.is_doubled ? CE::internal::Surface_double<double>(imported.triangulation).triangulation : imported.triangulation;
+  Disk_drawing drawing(drawn, u);
+  if(! options.obj.empty())
+  {
+    const UV_map uv = corner_map(mesh, imported, u);
+    files.write(options.obj, [&](std::ostream& o) { return CE::IO::write_OBJ(o, mesh, uv); });
+  }
+  if(! options.svg.empty())
+    files.write(options.svg, [&](std::ostream& o) { return drawing.write(o); });
+  if(! options.html.empty())
+  {
+    const std::string title = std::filesystem::path(options.input).filename().string();
+    files.write(options.html, [&](std::ostream& o) { return write_page(o, title, lines, drawing); });
+  }
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  if(! options.report.empty())
+    files.write(options.report, [&](std::ostream& o) { return (o << json_report(options, mesh, u, exact, seconds)).good(); });
+#endif
+  files.commit();
+  if(options.quiet)
+    return;
+  const bool is_out_taken = is_standard_stream(options.obj) || is_standard_stream(options.svg) || is_standard_stream(options.html)
+                         || is_standard_stream(options.report);
+  std::size_t width = 0;
+  for(const auto& line : lines)
+    width = (std::max)(width, line.first.size());
+  for(const auto& line : lines)
+    (is_out_taken ? err : out) << line.first << std::string(width + 2 - line.first.size(), ' ') << line.second << '\n';
+  for(const std::string& notice : given.notices)
+    err << "flatten_mesh: " << one_line(text(options.input, ": ", notice)) << std::endl;
+}
+
+} // namespace flattening

@@ -1,0 +1,423 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The engine of `compute_hyperbolic_metric()`: Newton's method on the energy of Hyperbolic_energy.h in `double`, then a few steps with the residual
+// of a wide number type. There is nothing to try in turn as in the plane: with flips there is exactly one metric for all angle sums
+// that leave any area, and the energy is strictly convex.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_HYPERBOLIC_METRIC_FINDER_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_HYPERBOLIC_METRIC_FINDER_H
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Hyperbolic_metric.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Solver_options.h>
+#include <CGAL/Conformal_equivalence/Statistics.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_energy.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/feasibility.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// Whether there can be a hyperbolic metric, decided before anything is computed. By Gauss-Bonnet the area of a component is what the prescribed
+// angles leave of the total angle that a flat metric would have, and must be positive; so must be what is left for vertices of fixed u. Writes the
+// area, or a bound of it where u is fixed, by component.
+template <typename NT>
+Outcome check_hyperbolic(const Intrinsic_triangulation<NT>& t, const Surface_components& pieces, const Conformal_conditions<NT>& conditions,
+                         std::vector<double>& area)
+{
+  Outcome result = check_numbers(t, conditions);
+  if(result.status == Status::OK)
+    result = check_angle_ranges(t, conditions, false);
+  if(result.status != Status::OK)
+    return result;
+  const std::vector<Angle_balance<NT> > balances = angle_balances(t, pieces, conditions);
+  for(std::size_t c = 0; c < balances.size(); ++c) // the surfaces that need cones
+    if(pieces.components[c].euler_characteristic() >= 0 && balances[c].fixed.empty() && balances[c].curved.empty())
+    {
+      if(result.faces.empty())
+        result.amount = 2 * Number_constants<double>::pi() * double(pieces.components[c].euler_characteristic());
+      result.status = Status::WRONG_TOPOLOGY;
+      result.faces.push_back(pieces.components[c].first_face);
+    }
+  area.clear();
+  for(std::size_t c = 0; c < balances.size() && result.status == Status::OK; ++c)
+  {
+    area.push_back(balances[c].radians());
+    if(area.back() > 0)
+      continue;
+    result.status = balances[c].fixed.empty() ? Status::GAUSS_BONNET_VIOLATED : Status::NO_ANGLE_LEFT;
+    result.amount = area.back();
+    result.vertices = balances[c].fixed.empty() ? balances[c].curved : balances[c].fixed;
+  }
+  return result;
+}
+
+template <typename NT>
+class Hyperbolic_metric_finder
+{
+public:
+  typedef Hyperbolic_metric<NT> Metric;
+  typedef typename Metric::Wide_number Wide;
+  typedef std::uint32_t Index;
+
+  // `t` with Euclidean lengths
+  Hyperbolic_metric_finder(Intrinsic_triangulation<NT> t, const Conformal_conditions<NT>& conditions, const Solver_options& options,
+                           std::unique_ptr<Factorization> factorization)
+    : given_(std::move(t)), conditions_(conditions), options_(options), factorization_(std::move(factorization))
+  {}
+
+  Metric find()
+  {
+    const Stopwatch stopwatch;
+    try
+    {
+      run();
+    }
+    catch(const std::bad_alloc&)
+    {
+      metric_ = Metric();
+      metric_.status = Status::OUT_OF_MEMORY;
+    }
+    metric_.statistics.seconds.solve = stopwatch.seconds();
+    return std::move(metric_);
+  }
+
+private:
+  void run()
+  {
+    CGAL_precondition(conditions_.size() == given_.number_of_vertices() && !conditions_.has_bounds());
+    options_.visitor.on_stage(Stage::SOLVE);
+    metric_.triangulation = given_;
+    if(given_.number_of_faces() == 0)
+      return fail(Status::EMPTY_MESH);
+    const Surface_components pieces = connected_components(given_);
+    std::vector<double> area;
+    metric_.set_outcome(check_hyperbolic(given_, pieces, conditions_, area));
+    if(metric_.status != Status::OK || !make_delaunay_if_asked())
+      return;
+    begin(pieces, area);
+    for(Index e = 0; e < given_.number_of_edges(); ++e)
+      metric_.triangulation.set_length(e, NT(metric_.triangulation.length(e) / 2));
+    energy_ = std::make_unique<Hyperbolic_energy<NT> >(metric_.triangulation);
+    metric_.status = minimize();
+    if(metric_.status == Status::OK)
+      metric_.status = refine();
+    tell();
+  }
+
+  void fail(Status status) { metric_.status = status; }
+
+  // With `Retriangulation::ALWAYS` the intrinsic Delaunay triangulation of the metric given is that which is scaled.
+  bool make_delaunay_if_asked()
+  {
+    if(options_.retriangulation != Retriangulation::ALWAYS)
+      return true;
+    if(make_intrinsic_delaunay(metric_.triangulation, metric_.faces, [&](Index e) { metric_.flips.push_back(e); }))
+      return true;
+    metric_.status = Status::DEGENERATE_METRIC;
+    return false;
+  }
+
+  // Where u is fixed, so it is; elsewhere it begins where it is asked to, or where the Euclidean area of its component is what the hyperbolic one
+  // is to be.
+  void begin(const Surface_components& pieces, const std::vector<double>& area)
+  {
+    const Index n = given_.number_of_vertices();
+    std::vector<char> free(n, 1);
+    std::vector<double> euclidean(pieces.components.size(), 0.);
+    for(Index f = 0; f < given_.number_of_faces(); ++f)
+    {
+      const Incircle_form<NT> triangle(given_.halfedge_length(3 * f), given_.halfedge_length(3 * f + 1), given_.halfedge_length(3 * f + 2));
+      euclidean[pieces.component_of_vertex[given_.origin(3 * f)]] += static_cast<double>(NT(triangle.r * triangle.s));
+    }
+    u_ = options_.initial_log_scale_factors;
+    const bool is_given = !u_.empty();
+    u_.resize(n, 0.);
+    for(Index v = 0; v < n; ++v)
+    {
+      const Index c = pieces.component_of_vertex[v];
+      free[v] = !given_.is_isolated_vertex(v) && !conditions_.is_fixed(v);
+      if(!free[v])
+        u_[v] = given_.is_isolated_vertex(v) ? 0 : static_cast<double>(conditions_.log_scale_factor(v));
+      else if(!is_given && euclidean[c] > 0)
+        u_[v] = std::log(area[c] / euclidean[c]);
+    }
+    graph_.set_free(free);
+    target_.assign(n, 0.);
+    for(Index v = 0; v < n; ++v)
+      if(free[v])
+        target_[v] = conditions_.angle_sum(v).template radians<double>();
+  }
+
+  // The angle sums less their targets where these are prescribed. Returns their largest difference, or infinity.
+  double evaluate(const Vertex_vector& u, Vertex_vector& r)
+  {
+    ++metric_.statistics.number_of_evaluations;
+    const bool is_finite = energy_->evaluate(u);
+    r = energy_->angle_sums();
+    for(Index v = 0; v < r.size(); ++v)
+      r[v] -= target_[v];
+    graph_.clear_fixed(r);
+    return is_finite ? largest_entry(r) : std::numeric_limits<double>::infinity();
+  }
+
+  // Below this a residual cannot be told from rounding.
+  double rounding_floor() const
+  {
+    double largest = 0;
+    for(Index v = 0; v < target_.size(); ++v)
+      if(graph_.is_free(v))
+        largest = (std::max)(largest, energy_->sensitivities()[v]);
+    return 4 * std::numeric_limits<double>::epsilon() * largest;
+  }
+
+  // Where there is nearly no area the Hessian is nearly that of a flat metric, singular up to rounding: then its diagonal gets a little more.
+  bool factorize()
+  {
+    const Eigen::SparseMatrix<double> hessian = energy_->hessian(graph_);
+    if(energy_->flips().size() != flips_of_pattern_)
+      factorization_->forget_pattern();
+    flips_of_pattern_ = energy_->flips().size();
+    for(const double more : {0., 1e-13, 1e-11, 1e-9})
+    {
+      ++metric_.statistics.number_of_factorizations;
+      if(factorization_->factor(with_larger_diagonal(hessian, more)))
+        return true;
+    }
+    return false;
+  }
+
+  // The diagonal times 1 + `more`, of the lower half of a matrix.
+  static Eigen::SparseMatrix<double> with_larger_diagonal(Eigen::SparseMatrix<double> lower, double more)
+  {
+    for(int c = 0; more > 0 && c < lower.outerSize(); ++c)
+      lower.valuePtr()[lower.outerIndexPtr()[c]] *= 1 + more;
+    return lower;
+  }
+
+  // d = H^-1 r on the free vertices, with the matrix last factorized.
+  bool solve(const Vertex_vector& r, Vertex_vector& d)
+  {
+    std::vector<double> x(graph_.number_of_free);
+    for(Index v = 0; v < r.size(); ++v)
+      if(graph_.is_free(v))
+        x[graph_.free_index[v]] = r[v];
+    if(!x.empty() && !factorization_->solve(x))
+      return false;
+    d.assign(r.size(), 0.);
+    for(Index v = 0; v < r.size(); ++v)
+      if(graph_.is_free(v))
+        d[v] = x[graph_.free_index[v]];
+    return true;
+  }
+
+  Status minimize()
+  {
+    Vertex_vector r, d;
+    double size = evaluate(u_, r);
+    for(std::size_t iteration = 0; ; ++iteration)
+    {
+      record(iteration, size);
+      if(!std::isfinite(size))
+        return Status::ITERATIONS_EXHAUSTED;
+      metric_.statistics.residual_floor = rounding_floor();
+      if(size <= (std::max)(options_.gradient_tolerance, metric_.statistics.residual_floor))
+        return factorize() ? Status::OK : Status::SINGULAR_PROBLEM;
+      if(!options_.visitor.go_further())
+        return Status::STOPPED_BY_VISITOR;
+      if(iteration == options_.number_of_iterations)
+        return Status::ITERATIONS_EXHAUSTED;
+      if(!factorize() || !solve(r, d))
+        return Status::SINGULAR_PROBLEM;
+      if(!step(d, r, size))
+        return size <= 10 * metric_.statistics.residual_floor ? Status::OK : Status::ITERATIONS_EXHAUSTED;
+      ++metric_.statistics.number_of_iterations;
+    }
+  }
+
+  void record(std::size_t iteration, double size)
+  {
+    metric_.statistics.residuals.push_back(size);
+    metric_.statistics.residual = size;
+    options_.visitor.on_iteration(iteration, size);
+  }
+
+  // Goes along d, from u, as far as E does not rise at the end more than half as steeply as it falls at the beginning. The slope of 2 E along d is
+  // -r.d.
+  bool step(const Vertex_vector& d, Vertex_vector& r, double& size)
+  {
+    const double slope = dot(r, d), longest_step = 5; // in u: far away triangulations are flipped in vain
+    const double first = (std::min)(1., longest_step / largest_entry(d)), least = 1e-6 * first;
+    if(!(slope > 0))
+      return false;
+    Vertex_vector trial(u_.size()), next;
+    for(double t = first; t > least; )
+    {
+      for(Index v = 0; v < u_.size(); ++v)
+        trial[v] = u_[v] + t * d[v];
+      const double next_size = evaluate(trial, next);
+      const double next_slope = std::isfinite(next_size) ? dot(next, d) : -std::numeric_limits<double>::infinity();
+      if(next_slope >= -0.5 * slope)
+      {
+        u_.swap(trial);
+        r.swap(next);
+        size = next_size;
+        return true;
+      }
+      const double secant = std::isfinite(next_size) && next_slope < slope ? slope / (slope - next_slope) : 0.1;
+      t *= (std::min)(0.7, (std::max)(0.1, secant));
+    }
+    size = evaluate(u_, r);
+    return false;
+  }
+
+  // The last steps, with the residual in the wide type and the factor in `double`: each gains as many digits as the factor has. They go on until
+  // there is nothing to gain, as what is laid out adds up all residuals. A step with an error e^3 in s is as good as any.
+  Status refine()
+  {
+    using std::exp;
+    using std::ldexp;
+    std::vector<Wide>& s = metric_.scale_factors;
+    s.resize(u_.size());
+    for(Index v = 0; v < u_.size(); ++v)
+      s[v] = graph_.is_free(v) || given_.is_isolated_vertex(v) ? Wide(std::exp(u_[v] / 2))
+                                                               : Wide(exp(Wide(Wide(conditions_.log_scale_factor(v)) / 2)));
+    const int most_rounds = 10; // of flips that rounding in `double` had hidden
+    Wide size(0);
+    for(int round = 0; round < most_rounds; ++round)
+    {
+      Scaled_vector residual = hyperbolic_residual(metric_.triangulation, s, conditions_);
+      size = residual.template largest<Wide>();
+      const Wide goal = (std::min)(Wide(options_.gradient_tolerance / 1e4), Wide(std::numeric_limits<Wide>::epsilon() * 1e4));
+      while(size > goal && add_step(residual, size, s)) {}
+      if(!energy_->make_delaunay(s))
+        break;
+      for(Index v = 0; v < u_.size(); ++v)
+        u_[v] = 2 * std::log(static_cast<double>(s[v]));
+      energy_->evaluate(u_);
+      if(!factorize())
+        return Status::SINGULAR_PROBLEM;
+    }
+    metric_.statistics.residual = static_cast<double>(size);
+    metric_.statistics.residuals.push_back(metric_.statistics.residual);
+    if(metric_.statistics.residual <= options_.gradient_tolerance)
+      return Status::OK;
+    metric_.amount = metric_.statistics.residual;
+    const double floor = static_cast<double>(std::numeric_limits<Wide>::epsilon()) / std::numeric_limits<double>::epsilon() * rounding_floor();
+    metric_.statistics.residual_floor = 8 * floor;
+    return metric_.amount <= 8 * floor ? Status::CONVERGED_TO_ROUNDING : Status::ITERATIONS_EXHAUSTED;
+  }
+
+  // One step, if it makes the residual less than half of what it is.
+  bool add_step(Scaled_vector& residual, Wide& size, std::vector<Wide>& s)
+  {
+    using std::ldexp;
+    Vertex_vector right = residual.entries, d;
+    graph_.clear_fixed(right);
+    if(!solve(right, d))
+      return false;
+    std::vector<Wide> moved = s;
+    for(Index v = 0; v < d.size(); ++v)
+      if(d[v] != 0)
+      {
+        const Wide step = ldexp(Wide(d[v]), residual.exponent);
+        moved[v] = s[v] + s[v] * (step / 2 + step * step / 8);
+      }
+    Scaled_vector next = hyperbolic_residual(metric_.triangulation, moved, conditions_);
+    const Wide next_size = next.template largest<Wide>();
+    if(!(next_size < size))
+      return false;
+    const bool is_worth_it = next_size < size / 2;
+    s.swap(moved);
+    residual = std::move(next);
+    size = next_size;
+    return is_worth_it;
+  }
+
+  // u, the area, the faces at fault and figures.
+  void tell()
+  {
+    Statistics& statistics = metric_.statistics;
+    metric_.flips.insert(metric_.flips.end(), energy_->flips().begin(), energy_->flips().end());
+    statistics.number_of_flips = metric_.flips.size();
+    statistics.number_of_filter_failures = energy_->flipper().counts().filter_failures;
+    statistics.number_of_exact_decisions = energy_->flipper().counts().exact_decisions;
+    statistics.conformal_class = options_.retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
+                                                                                     : Conformal_class::GIVEN_TRIANGULATION;
+    if(!is_success(metric_.status))
+    {
+      metric_.faces = energy_->broken_faces();
+      metric_.amount = statistics.residual;
+      metric_.scale_factors.clear();
+      return;
+    }
+    const Delaunay_verdict verdict = energy_->flipper().verdict(metric_.scale_factors);
+    statistics.delaunay = verdict.is_exact         ? Delaunay_property::EXACT
+                        : verdict.is_within_bounds ? Delaunay_property::WITHIN_ROUNDING
+                                                   : Delaunay_property::NO;
+    for(const Wide& s : metric_.scale_factors)
+      metric_.log_scale_factors.push_back(logarithm_of_factor<NT>(s));
+    judge();
+    double least = 0, largest = 0;
+    for(Index v = 0; v < u_.size(); ++v)
+    {
+      const double u = static_cast<double>(metric_.log_scale_factors[v]);
+      least = v == 0 ? u : (std::min)(least, u);
+      largest = v == 0 ? u : (std::max)(largest, u);
+    }
+    statistics.least_u = least;
+    statistics.largest_u = largest;
+  }
+
+  // Sums up the area, and names the faces that are no triangles.
+  void judge()
+  {
+    for(Index f = 0; f < metric_.triangulation.number_of_faces(); ++f)
+    {
+      const Hyperbolic_sides<Wide> sides = scaled_sides(metric_.triangulation, metric_.scale_factors, f);
+      metric_.area += hyperbolic_area(sides);
+      if(!sides.triangle().is_triangle)
+        metric_.faces.push_back(f);
+    }
+    if(!metric_.faces.empty())
+      metric_.status = Status::DEGENERATE_METRIC;
+  }
+
+  const Intrinsic_triangulation<NT> given_;
+  const Conformal_conditions<NT>& conditions_;
+  const Solver_options& options_;
+  std::unique_ptr<Factorization> factorization_;
+  std::unique_ptr<Hyperbolic_energy<NT> > energy_;
+  Edge_graph graph_;
+  Vertex_vector u_, target_;
+  std::size_t flips_of_pattern_ = 0;
+  Metric metric_;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_HYPERBOLIC_METRIC_FINDER_H

@@ -1,0 +1,182 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The engine of `uniformize_hyperbolic()`: the metric, of the surface or its double, loops, layout, canonical generators, one after the other.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_UNIFORMIZATION_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_UNIFORMIZATION_H
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Hyperbolic_metric.h>
+#include <CGAL/Conformal_equivalence/Hyperbolic_uniformization.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Solver_options.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_layout.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_metric_finder.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Isometry.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Loop_system.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/words.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Complex_number.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/options.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// Whether the surface has a border, along all of which angle sums are prescribed.
+template <typename NT>
+bool has_border_of_angles(const Intrinsic_triangulation<NT>& t, const Conformal_conditions<NT>& conditions)
+{
+  bool has_border = false;
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    if(t.is_border_vertex(v))
+    {
+      has_border = true;
+      if(conditions.is_fixed(v))
+        return false;
+    }
+  return has_border;
+}
+
+class Uniformization
+{
+public:
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<double> Triangulation;
+  typedef Hyperbolic_uniformization::Wide_number Wide;
+  typedef Isometry<Wide> Motion;
+
+  // `t` with Euclidean lengths. A border along which all angle sums are prescribed is doubled.
+  static Hyperbolic_uniformization run(const Triangulation& t, const Conformal_conditions<double>& conditions, const Solver_options& options,
+                                       std::unique_ptr<Factorization> factorization)
+  {
+    if(!has_border_of_angles(t, conditions))
+      return Uniformization(t, conditions, options, std::move(factorization)).result_;
+    const Surface_double<double> twofold(t);
+    const Index n = t.number_of_vertices(), faces = t.number_of_faces();
+    Solver_options options_of_double = options;
+    options_of_double.initial_log_scale_factors.clear();
+    Hyperbolic_uniformization result =
+      Uniformization(twofold.triangulation, twofold.conditions(conditions), options_of_double, std::move(factorization)).result_;
+    result.is_doubled = true;
+    const auto is_image_of = [](Index number) { return [number](Index x) { return x >= number; }; };
+    result.vertices.erase(std::remove_if(result.vertices.begin(), result.vertices.end(), is_image_of(n)), result.vertices.end());
+    result.faces.erase(std::remove_if(result.faces.begin(), result.faces.end(), is_image_of(faces)), result.faces.end());
+    return result;
+  }
+
+private:
+  Uniformization(const Triangulation& t, const Conformal_conditions<double>& conditions, const Solver_options& options,
+                 std::unique_ptr<Factorization> factorization)
+    : given_(t)
+  {
+    result_.metric = Hyperbolic_metric_finder<double>(t, conditions, options, std::move(factorization)).find();
+    result_.set_outcome(result_.metric);
+    if(!bool(result_))
+      return;
+    const Surface_components pieces = connected_components(t);
+    for(const Surface_components::Component& c : pieces.components)
+      result_.genus += c.genus();
+    const bool is_closed = pieces.components.size() == 1 && pieces.components.front().number_of_borders == 0;
+    if(!is_closed || pieces.number_of_isolated_vertices > 0 || has_cones(conditions))
+      return;
+    const Stopwatch stopwatch;
+    options.visitor.on_stage(Stage::LAYOUT);
+    lay_out();
+    result_.metric.statistics.seconds.layout = stopwatch.seconds();
+  }
+
+  bool has_cones(const Conformal_conditions<double>& conditions) const
+  {
+    for(Index v = 0; v < given_.number_of_vertices(); ++v)
+      if(conditions.is_cone(v))
+        return true;
+    return false;
+  }
+
+  static std::array<double, 2> rounded(const Complex_number<Wide>& z)
+  {
+    return {{static_cast<double>(z.re), static_cast<double>(z.im)}};
+  }
+
+  static Hyperbolic_uniformization::Motion rounded(const Motion& m) { return {rounded(m.a), rounded(m.b)}; }
+
+  void lay_out()
+  {
+    const Triangulation& t = result_.metric.triangulation;
+    std::vector<double> lengths;
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+      lengths.push_back(result_.metric.length(t.edge_halfedge(e)));
+    const Index number_of_bases = 10; // loops are much shorter from a good one
+    Loop_system loops = Loop_system::shortest_of(t.with_lengths(std::move(lengths)), number_of_bases);
+    Hyperbolic_layout<double> layout(result_.metric, loops);
+    for(const Motion& frame : layout.frame)
+      result_.vertex_points.push_back(rounded(frame.center()));
+    for(const Motion& g : layout.generator)
+      result_.generators.push_back(rounded(g));
+
+    Word_values<Motion> deck(layout.generator, Motion::identity());
+    find_canonical_generators(loops.relation, deck);
+    result_.relation = loops.relation;
+    result_.labels = loops.label;
+    Triangulation original = t;
+    undo_flips(original, result_.metric.flips, loops.label);
+    result_.input_labels = std::move(loops.label);
+    find_corners(original, layout.frame, deck, loops.tree.empty() ? 0 : t.origin(loops.tree.front()));
+    result_.wide_generators = std::move(layout.generator);
+    result_.wide_frames = std::move(layout.frame);
+  }
+
+  void find_canonical_generators(const Word& relation, Word_values<Motion>& deck)
+  {
+    result_.canonical_words = canonical_generators(relation);
+    result_.relation_error = deck(relation).distance_from_identity();
+    for(const Word& w : result_.canonical_words)
+      result_.canonical_generators.push_back(rounded(deck(w)));
+  }
+
+  void find_corners(const Triangulation& original, const std::vector<Motion>& frame, Word_values<Motion>& deck, Index base)
+  {
+    const std::vector<Word> origin_word = fundamental_domain(original, result_.input_labels, frame, deck, base);
+    for(Index h = 0; h < original.number_of_halfedges(); ++h)
+    {
+      const Word& w = origin_word[original.next(h)];
+      result_.corner_words.push_back(w);
+      result_.corner_points.push_back(rounded((deck(w) * frame[original.target(h)]).center()));
+    }
+    for(Index e = 0; e < original.number_of_edges(); ++e)
+    {
+      const Index h = original.edge_halfedge(e), g = original.twin(h);
+      result_.is_seam.push_back(!are_equal(origin_word[g], origin_word[original.next(h)], deck));
+    }
+  }
+
+  // Different words may stand for the same motion, where the relation is at work; and different motions are far apart, compared with rounding.
+  static bool are_equal(const Word& v, const Word& w, Word_values<Motion>& deck)
+  {
+    const double less_than_any_translation = 1e-10;
+    return v == w || (deck(v).inverse() * deck(w)).distance_from_identity() < less_than_any_translation;
+  }
+
+  const Triangulation& given_;
+  Hyperbolic_uniformization result_;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_UNIFORMIZATION_H
