@@ -132,6 +132,8 @@ public:
   ///    of fixed or bounded u): the conditions have no solution, nothing was computed;
   ///  - `DEGENERATE_METRIC`: the minimizer was found, but is no metric: `faces` violate the
   ///    triangle inequality, decided exactly; or, with `Retriangulation::ALWAYS`, there are `faces` among those given that do;
+  ///  - `SCALE_OUT_OF_RANGE` (`amount`: largest less least u): u leaves the range of `NT`. If `log_scale_factors` is not empty, it is
+  ///    the solution, found in `double`, and all that there is of it; a type with a wider range of exponents finds the rest;
   ///  - `ITERATIONS_EXHAUSTED` (`amount`: the residual; `faces`: the triangles broken there),
   ///    `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`, `OUT_OF_MEMORY`.
   template <typename NamedParameters = parameters::Default_named_parameters>
