@@ -634,9 +634,9 @@ BOOST_AUTO_TEST_CASE(energy_is_convex_and_does_not_see_the_scale)
   BOOST_CHECK_GT(crossings, 50);
 }
 
-// The angle sums at u, which are multiples of 2^-20 up to 5, against those at u + w of lengths e^{-(w_i + w_j)/2} l, where w ranges far beyond what e^{w/2}
-// can be in `double`. u + w is rounded, and the factor is e^x for an x that is a difference of numbers as large as w / 2: two errors of 2^-53 |w| in u
-// at most, and the angles at a vertex move by its sensitivity at most times those of the lengths.
+// The angle sums at u, which are multiples of 2^-20 up to 5, against those at u + w of lengths e^{-(w_i + w_j)/2} l, where w ranges far beyond what
+// e^{w/2} can be in `double`. u + w is rounded, and the factor is e^x for an x that is a difference of numbers as large as w / 2: two errors of
+// 2^-53 |w| in u at most, and the angles at a vertex move by its sensitivity at most times those of the lengths.
 BOOST_AUTO_TEST_CASE(angle_sums_do_not_see_how_far_u_ranges)
 {
   const double farthest = 6000;

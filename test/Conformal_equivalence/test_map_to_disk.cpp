@@ -702,7 +702,8 @@ BOOST_AUTO_TEST_CASE(polygons)
     }
 }
 
-// The squares of a strip have the cross ratio -1: from each to the next, seen from one end, lengths shrink by the square of 1 + sqrt(2) = e^{asinh 1}.
+// The squares of a strip have the cross ratio -1: from each to the next, seen from one end, lengths shrink by the square of
+// 1 + sqrt(2) = e^{asinh 1}.
 BOOST_AUTO_TEST_CASE(long_strips)
 {
   const double rate = std::asinh(1.);
@@ -740,7 +741,8 @@ BOOST_AUTO_TEST_CASE(long_strips)
   };
   for(Index i = 0; i < n; ++i)
   {
-    const auto a = difference(2 * i, 2 * i + 2), b = difference(2 * i + 2, 2 * i + 3), c = difference(2 * i + 3, 2 * i + 1), d = difference(2 * i + 1, 2 * i);
+    const Index v = 2 * i;
+    const auto a = difference(v, v + 2), b = difference(v + 2, v + 3), c = difference(v + 3, v + 1), d = difference(v + 1, v);
     const auto square = [](const std::array<Number, 2>& z) { return Number(z[0] * z[0] + z[1] * z[1]); };
     BOOST_TEST(std::abs(static_cast<double>(Number(square(a) * square(c) / (square(b) * square(d)) - 1))) <= square_error);
   }

@@ -69,7 +69,8 @@ inline void scale_by_power_of_two(double& x, double& y, double& z)
 }
 
 // The sign of s_i s_j l_ij + s_k s_i l_ki - s_j s_k l_jk from arguments rounded to double
-// (relative error at most 2^-52), if certain. Common powers of two do not matter. Numbers that are rounded to less than the normal range have lost digits.
+// (relative error at most 2^-52), if certain. Common powers of two do not matter. What is rounded to less than the
+// normal range has lost digits.
 inline bool filtered_scaled_sign(double s_i, double s_j, double s_k, double l_ij, double l_jk, double l_ki, Sign& sign)
 {
   if(!((std::min)({s_i, s_j, s_k, l_ij, l_jk, l_ki}) >= (std::numeric_limits<double>::min)()))
