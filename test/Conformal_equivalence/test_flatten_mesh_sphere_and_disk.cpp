@@ -415,6 +415,25 @@ BOOST_AUTO_TEST_CASE(target_disk)
   BOOST_TEST(is_good(checking::check_disk(one.input, one.output)));
 }
 
+// What a long strip is refused with tells how many digits it takes, and with these it is mapped; two squares abreast have unknowns, one has none.
+BOOST_AUTO_TEST_CASE(target_disk_of_long_strips)
+{
+  const Folder folder;
+  for(const testing::Index width : { 1, 2 })
+  {
+    const std::string input = write_off(folder, "strip.off", testing::strip(width == 1 ? 400 : 1200, width));
+    const Run refused = run({input, "-o", folder / "i.obj", "--target", "disk"});
+    BOOST_TEST(refused.status == 1);
+    BOOST_TEST(contains(refused.err, "the scale factors leave the range of the number type: u ranges over "));
+    const std::string option = "--precision ", begin = "(" + option;
+    BOOST_REQUIRE(contains(refused.err, begin));
+    const int bits = std::stoi(refused.err.substr(refused.err.find(begin) + begin.size()));
+    BOOST_TEST((bits > 53 && bits <= 16384));
+    if(width == 1)
+      BOOST_TEST(run({input, "-o", folder / "i.obj", "--target", "disk", "--precision", std::to_string(bits)}).status == 0);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(target_disk_with_flips)
 {
   const Folder folder;
