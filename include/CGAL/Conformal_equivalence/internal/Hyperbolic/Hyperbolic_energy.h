@@ -51,7 +51,32 @@ struct Hyperbolic_sides
     : x{{x0, x1, x2}}, y{{hyperbolic_cosine(x0), hyperbolic_cosine(x1), hyperbolic_cosine(x2)}}
   {}
 
+  Hyperbolic_sides(const std::array<NT, 3>& sines, const std::array<NT, 3>& cosines) : x(sines), y(cosines) {}
+
   Hyperbolic_incircle_form<NT> triangle() const { return Hyperbolic_incircle_form<NT>(x, y); }
+};
+
+// The same of all edges, each of which has two faces.
+template <typename NT>
+class Hyperbolic_edges
+{
+public:
+  // `x` by edge, scaled
+  explicit Hyperbolic_edges(std::vector<NT> x) : x_(std::move(x))
+  {
+    for(const NT& sine : x_)
+      y_.push_back(hyperbolic_cosine(sine));
+  }
+
+  template <typename Length>
+  Hyperbolic_sides<NT> sides_of_face(const Intrinsic_triangulation<Length>& t, std::uint32_t f) const
+  {
+    const std::uint32_t a = t.edge(3 * f), b = t.edge(3 * f + 1), c = t.edge(3 * f + 2);
+    return Hyperbolic_sides<NT>({{x_[a], x_[b], x_[c]}}, {{y_[a], y_[b], y_[c]}});
+  }
+
+private:
+  std::vector<NT> x_, y_;
 };
 
 template <typename NT, typename Wide>
@@ -184,22 +209,23 @@ private:
     sensitivity_.assign(t_.number_of_vertices(), 0.);
     broken_.clear();
     without_circle_.clear();
+    std::vector<double> scaled(x_);
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+      scaled[e] *= scale_[t_.origin(t_.edge_halfedge(e))] * scale_[t_.target(t_.edge_halfedge(e))];
+    const Hyperbolic_edges<double> edges(std::move(scaled));
     bool is_finite = true;
     for(Index f = 0; f < t_.number_of_faces(); ++f)
-      is_finite = add_face(f, sum) && is_finite;
+      is_finite = add_face(f, edges.sides_of_face(t_, f), sum) && is_finite;
     angle_sum_.resize(t_.number_of_vertices());
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
       angle_sum_[v] = sum[v].radians();
     return is_finite;
   }
 
-  double scaled(Index h) const { return scale_[t_.origin(h)] * x_[t_.edge(h)] * scale_[t_.target(h)]; }
-
   // Returns whether the lengths of the face are positive and finite.
-  bool add_face(Index f, std::vector<Angle_sum<double> >& sum)
+  bool add_face(Index f, const Hyperbolic_sides<double>& sides, std::vector<Angle_sum<double> >& sum)
   {
     const Index h = 3 * f;
-    const Hyperbolic_sides<double> sides(scaled(h), scaled(h + 1), scaled(h + 2));
     const std::array<double, 3>& x = sides.x;
     if(!(excess(x[0], x[1], x[2]) > 0 && excess(x[1], x[2], x[0]) > 0 && excess(x[2], x[0], x[1]) > 0))
       without_circle_.push_back(f);
@@ -236,9 +262,10 @@ template <typename NT, typename Wide>
 Scaled_vector hyperbolic_residual(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, const Conformal_conditions<NT>& conditions)
 {
   std::vector<Wide_angle_sum<Wide> > sum(t.number_of_vertices());
+  const Hyperbolic_edges<Wide> edges(wide_lengths(t, s));
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
   {
-    const Hyperbolic_incircle_form<Wide> triangle = scaled_sides(t, s, f).triangle();
+    const Hyperbolic_incircle_form<Wide> triangle = edges.sides_of_face(t, f).triangle();
     const double unit = 1 / static_cast<double>(triangle.s);
     for(std::uint32_t k = 0; k < 3; ++k)
     {

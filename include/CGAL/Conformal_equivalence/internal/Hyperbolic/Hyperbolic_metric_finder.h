@@ -396,9 +396,10 @@ private:
   {
     for(Index f = 0; f < metric_.triangulation.number_of_faces(); ++f)
     {
-      const Hyperbolic_sides<Wide> sides = scaled_sides(metric_.triangulation, metric_.scale_factors, f);
+      const auto x = [&](Index h) { return static_cast<double>(metric_.wide_half_sinh(h)); };
+      const Hyperbolic_sides<double> sides(x(3 * f), x(3 * f + 1), x(3 * f + 2));
       metric_.area += hyperbolic_area(sides);
-      if(!sides.triangle().is_triangle)
+      if(!sides.triangle().is_triangle && !scaled_sides(metric_.triangulation, metric_.scale_factors, f).triangle().is_triangle)
         metric_.faces.push_back(f);
     }
     if(!metric_.faces.empty())

@@ -18,6 +18,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -56,15 +58,34 @@ inline Exact_isometry rounded_quotient_by_twist(const Isometry<Double_double>& a
   return Exact_isometry::rounded(n, bits);
 }
 
+// Splits off the pair with the shortest motions a and b: by how much C is larger than 1 is what rounding is magnified by. The relation may begin
+// anywhere.
+inline bool split_off_best(Word& relation, Interleaved_pair& pair, const Letter_values<Isometry<Double_double> >& values)
+{
+  double least = std::numeric_limits<double>::infinity();
+  const Word whole = relation;
+  for(std::size_t n = 0; n < whole.size(); ++n)
+  {
+    Word rest = rotated(whole, n);
+    Interleaved_pair found;
+    if(!split_off_first(rest, found))
+      continue;
+    const double size = size_of(values(found.a()).a) * size_of(values(found.b()).a);
+    if(!(size < least))
+      continue;
+    least = size;
+    pair = std::move(found);
+    relation = std::move(rest);
+  }
+  return least < std::numeric_limits<double>::infinity();
+}
+
 // The exact matrices; none if rounding was too coarse.
 inline std::vector<Exact_isometry> exact_generators(const std::vector<Isometry<Double_double> >& given, Word relation, int bits)
 {
   typedef Rational_numerator Integer;
   const std::vector<Exact_isometry> none;
   const Word whole = relation;
-  Interleaved_pair pair;
-  if(!split_off(relation, pair))
-    return none;
   Letter_values<Isometry<Double_double> > rough_values(given.size(), Isometry<Double_double>::identity());
   Letter_values<Exact_isometry> values(given.size(), Exact_isometry::identity());
   for(std::size_t n = 0; n < given.size(); ++n)
@@ -73,6 +94,9 @@ inline std::vector<Exact_isometry> exact_generators(const std::vector<Isometry<D
     values.set(std::int32_t(n + 1), Exact_isometry::rounded(given[n], bits).reduced());
   }
 
+  Interleaved_pair pair;
+  if(!split_off_best(relation, pair, rough_values))
+    return none;
   // M = k C: every other letter occurs twice in W, with both signs, so that the determinant of M is a square
   Exact_isometry m = Exact_isometry::identity();
   Integer k(1);

@@ -54,13 +54,22 @@ struct Hyperbolic_incircle_form
     : s(x[0] * y[1] * y[2] + x[1] * y[2] * y[0] + x[2] * y[0] * y[1] + x[0] * x[1] * x[2]), r(0),
       tangent{{sine(x, y, 0), sine(x, y, 1), sine(x, y, 2)}}
   {
-    using std::sqrt;
     is_triangle = tangent[0] > 0 && tangent[1] > 0 && tangent[2] > 0;
     if(is_triangle)
-      r = sqrt(tangent[0]) * sqrt(tangent[1]) * (sqrt(tangent[2]) / sqrt(s));
+      r = radius();
   }
 
 private:
+  // By powers where the products neither over- nor underflow.
+  NT radius() const
+  {
+    using std::sqrt;
+    const NT product = tangent[0] * tangent[1] * tangent[2] / s, least_safe(1e-200), greatest_safe(1e200);
+    if(product > least_safe && product < greatest_safe)
+      return sqrt(product);
+    return sqrt(tangent[0]) * sqrt(tangent[1]) * (sqrt(tangent[2]) / sqrt(s));
+  }
+
   static NT sine(const std::array<NT, 3>& x, const std::array<NT, 3>& y, int k)
   {
     const int i = (k + 1) % 3, j = (k + 2) % 3;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -133,7 +134,8 @@ struct Interleaved_pair
 
 // Finds the pair that spans the fewest letters of a word in which each occurs twice, with both signs, and leaves of the word what comes after its
 // commutator. Returns whether there is one: there is, if the word is the relation of a closed surface.
-inline bool split_off(Word& w, Interleaved_pair& pair)
+// Only pairs are considered that begin with one of the first `most` letters.
+inline bool split_off(Word& w, Interleaved_pair& pair, std::size_t most = (std::numeric_limits<std::size_t>::max)())
 {
   const std::size_t n = w.size();
   std::map<std::int32_t, std::size_t> place;
@@ -141,7 +143,7 @@ inline bool split_off(Word& w, Interleaved_pair& pair)
     place[w[i]] = i;
   std::size_t first = n, span = n + 1;
   std::pair<std::size_t, std::size_t> inner(0, 0); // places of y and x^-1
-  for(std::size_t i = 0; i < n; ++i)
+  for(std::size_t i = 0; i < (std::min)(n, most); ++i)
   {
     const auto end = place.find(-w[i]);
     if(end == place.end())
@@ -172,6 +174,21 @@ inline bool split_off(Word& w, Interleaved_pair& pair)
   return true;
 }
 
+// The letters of a cyclic word, begun at place n.
+inline Word rotated(const Word& w, std::size_t n)
+{
+  Word result = w;
+  std::rotate(result.begin(), result.begin() + std::ptrdiff_t(n), result.end());
+  return result;
+}
+
+// The pair with the first letter of a word that spans the fewest letters. Returns whether there is one, and then leaves of the word what comes
+// after its commutator.
+inline bool split_off_first(Word& w, Interleaved_pair& pair)
+{
+  return split_off(w, pair, 1);
+}
+
 // Canonical generators a_1, b_1, ..., a_g, b_g for the generators of a one-relator presentation of the group of a closed surface, as words in
 // these: the product of commutators [a_i, b_i] = a_i b_i a_i^-1 b_i^-1 is the relation, begun somewhere else (the normal form of closed surfaces,
 // by cutting and pasting; H. R. Brahana, "Systems of circuits on two-dimensional manifolds", 1921). None if the relation is not that of a closed
@@ -182,7 +199,7 @@ inline std::vector<Word> canonical_generators(Word relation)
   Interleaved_pair pair;
   Word rest = relation;
   if(split_off(rest, pair)) // a relation may begin anywhere: what stands before the first pair would conjugate it, and make it long
-    std::rotate(relation.begin(), relation.begin() + std::ptrdiff_t(pair.s.size()), relation.end());
+    relation = rotated(relation, pair.s.size());
   while(!relation.empty())
   {
     if(!split_off(relation, pair))
