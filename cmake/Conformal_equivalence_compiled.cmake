@@ -12,5 +12,8 @@ set_target_properties(Conformal_equivalence_compiled PROPERTIES
   OUTPUT_NAME Conformal_equivalence
   POSITION_INDEPENDENT_CODE ON)
 target_link_libraries(Conformal_equivalence_compiled PUBLIC Conformal_equivalence::Conformal_equivalence)
+if(TARGET Conformal_equivalence::TBB_support) # what the library does with threads, programs that link it must do, too
+  target_link_libraries(Conformal_equivalence_compiled PUBLIC Conformal_equivalence::TBB_support)
+endif()
 target_compile_definitions(Conformal_equivalence_compiled INTERFACE CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED)
 conformal_equivalence_set_flags(Conformal_equivalence_compiled)

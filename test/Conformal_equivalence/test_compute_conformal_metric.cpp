@@ -14,6 +14,7 @@
 
 #include <boost/property_map/property_map.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -576,10 +577,10 @@ CEi::Elimination_order random_order(std::size_t n, unsigned seed)
 // Stability of Numerical Algorithms, 2002, theorem 10.4 with |R^T| |R| bounded by Cauchy and Schwarz); in single precision the entries of A and b
 // and those of x are rounded, too.
 template <typename Number>
-void check_backward_error(const Dense_matrix& a, const CEi::Elimination_order& order)
+void check_backward_error(const Dense_matrix& a, const CEi::Elimination_order& order, int least_size_of_groups)
 {
   const CEi::Lower_half lower = sparse(a);
-  CEi::Multifrontal_factor<Number> factor(std::make_shared<CEi::Symbolic_factor>(lower, order));
+  CEi::Multifrontal_factor<Number> factor(std::make_shared<CEi::Symbolic_factor>(lower, order, least_size_of_groups), CEi::Concurrency(2));
   for(int repetition = 0; repetition < 2; ++repetition) // memory is used again
     BOOST_REQUIRE(factor.factorize(lower));
   const double roundoff = double(std::numeric_limits<Number>::epsilon()) / 2, n = double(a.size());
@@ -608,10 +609,13 @@ void check_backward_error(const Dense_matrix& a, const CEi::Elimination_order& o
 
 void check_backward_errors(const Dense_matrix& a)
 {
-  check_backward_error<double>(a, CEi::Elimination_order(sparse(a)));
-  check_backward_error<float>(a, CEi::Elimination_order(sparse(a)));
-  check_backward_error<double>(a, random_order(a.size(), 1));
-  check_backward_error<float>(a, random_order(a.size(), 2));
+  for(const int least_size_of_groups : {0, 1000})
+  {
+    check_backward_error<double>(a, CEi::Elimination_order(sparse(a)), least_size_of_groups);
+    check_backward_error<float>(a, CEi::Elimination_order(sparse(a)), least_size_of_groups);
+    check_backward_error<double>(a, random_order(a.size(), 1), least_size_of_groups);
+    check_backward_error<float>(a, random_order(a.size(), 2), least_size_of_groups);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(factor_of_random_matrices)
@@ -726,6 +730,69 @@ BOOST_AUTO_TEST_CASE(structure_of_the_factor)
           BOOST_CHECK(row < node.end_column() || rows.count(row) == 1);
     }
     BOOST_CHECK_EQUAL(columns, n);
+  }
+}
+
+// Subtrees and top make up all supernodes, each once; nothing but the top is above a subtree; and no vector reaches from the panels of one
+// group to those of another.
+BOOST_AUTO_TEST_CASE(groups_of_subtrees)
+{
+  std::size_t in_top = 0;
+  for(const testing::Soup& soup : {testing::hill(14, .8), testing::annulus(5, 40, .3), testing::random_height_field(24, .5, 3)})
+  {
+    const CEi::Lower_half a = sparse(laplacian(testing::triangulation(soup)));
+    const CEi::Symbolic_factor symbolic(a, CEi::Elimination_order(a), 0);
+    std::vector<int> group(symbolic.supernodes.size(), -1);
+    for(std::size_t g = 0; g < symbolic.groups.size(); ++g)
+      for(const CEi::Symbolic_factor::Subtree& subtree : symbolic.groups[g])
+        for(int s = subtree.first; s < subtree.end; ++s)
+        {
+          BOOST_CHECK_EQUAL(group[s], -1);
+          group[s] = int(g);
+          const CEi::Symbolic_factor::Supernode& node = symbolic.supernodes[s];
+          for(int i = 0; i < node.number_of_rows; ++i)
+          {
+            const int row = symbolic.rows[node.first_row + i];
+            BOOST_CHECK((row < symbolic.supernodes[subtree.end - 1].end_column()) == (symbolic.place_in_top[row] == CEi::Symbolic_factor::none));
+          }
+        }
+    for(const int s : symbolic.top)
+    {
+      BOOST_CHECK_EQUAL(group[s], -1);
+      group[s] = 100;
+    }
+    in_top += symbolic.top.size();
+    BOOST_CHECK(std::count(group.begin(), group.end(), -1) == 0);
+    for(std::size_t s = 0; s + 1 < group.size(); ++s)
+    {
+      const std::size_t end = symbolic.supernodes[s].panel + symbolic.supernodes[s].panel_size();
+      BOOST_CHECK(symbolic.supernodes[s + 1].panel >= end + (group[s] == group[s + 1] ? 0 : CEi::Symbolic_factor::gap));
+    }
+  }
+  BOOST_CHECK(in_top > 0);
+}
+
+// Of surfaces large enough that there is something to share.
+BOOST_AUTO_TEST_CASE(results_do_not_depend_on_the_number_of_threads)
+{
+  for(const bool is_flipped : {false, true})
+  {
+    const Triangulation t = testing::triangulation(is_flipped ? testing::random_height_field(110, 4, 3) : testing::hill(190, .6));
+    const CE::Conformal_conditions<double> conditions(t);
+    const CE::Retriangulation retriangulation = is_flipped ? CE::Retriangulation::ALWAYS : CE::Retriangulation::NEVER;
+    CE::Conformal_metric<double> first;
+    for(const unsigned number : {1u, 2u, 3u})
+    {
+      const auto metric = CE::compute_conformal_metric(t, conditions, CGAL::parameters::number_of_threads(number).retriangulation(retriangulation));
+      BOOST_CHECK(metric.status == Status::OK);
+      BOOST_CHECK_EQUAL(metric.flips.empty(), !is_flipped);
+      if(number == 1)
+        first = metric;
+      BOOST_CHECK(metric.log_scale_factors == first.log_scale_factors);
+      BOOST_CHECK(metric.scale_factors == first.scale_factors);
+      BOOST_CHECK(metric.flips == first.flips);
+      BOOST_CHECK(metric.statistics.residuals == first.statistics.residuals);
+    }
   }
 }
 

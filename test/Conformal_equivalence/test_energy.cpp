@@ -1070,13 +1070,11 @@ BOOST_AUTO_TEST_CASE(wide_angle_sums_by_vectors)
       };
       std::vector<Wide_number> length(t.number_of_edges());
       std::vector<Wide_sum> one_by_one(t.number_of_vertices()), by_two(one_by_one), by_four(one_by_one);
-      CEi::add_wide_angles<double, Wide_number>(t, s, length, one_by_one);
+      CEi::add_wide_angles<double, Wide_number>(t, s, length, one_by_one, CEi::Concurrency());
       BOOST_CHECK(same(one_by_one));
-      CEi::Wide_length_vectors<16>::set_all(t, s, length);
-      CEi::Wide_corner_vectors<16>::add_all(t, length, by_two);
+      CEi::add_wide_angles_by<CEi::Wide_vectors<16> >(t, s, length, by_two, CEi::Concurrency());
       BOOST_CHECK(same(by_two));
-      CEi::Wide_length_vectors<32>::set_all(t, s, length);
-      CEi::Wide_corner_vectors<32>::add_all(t, length, by_four);
+      CEi::add_wide_angles_by<CEi::Wide_vectors<32> >(t, s, length, by_four, CEi::Concurrency(2));
       BOOST_CHECK(same(by_four));
 #endif
     }

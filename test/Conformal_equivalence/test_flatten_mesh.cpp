@@ -468,6 +468,7 @@ BOOST_AUTO_TEST_CASE(wrong_usage)
   check_refused({"a.off", "--tolerance", "0"}, 2, "--tolerance");
   check_refused({"a.off", "--tolerance", "nan"}, 2, "--tolerance");
   check_refused({"a.off", "--max-iterations", "-1"}, 2, "--max-iterations");
+  check_refused({"a.off", "--threads", "0"}, 2, "--threads");
   check_refused({"a.off", "--solver", "abacus"}, 2, "simplicial");
   for(const char* precision : { "quadruple", "", "1", "-200", "1e2", "4097" })
     check_refused({"a.off", "--precision", precision}, 2, "--precision takes");

@@ -95,6 +95,8 @@ po::options_description visible_options()
     ("precision", po::value<std::string>()->default_value("double"), "double | BITS: computes with numbers of so many bits (up to 16384), "
        "as exactly as they allow, and writes all of their digits")
     ("solver", po::value<std::string>(), "the linear solver: multifrontal, simplicial (Eigen) or cholmod (if compiled in)")
+    ("threads", po::value<long long>()->default_value(1), "how many threads the solver may use, if TBB is compiled in; "
+       "the result is the same for any number")
     ("default-input", po::value<std::string>(), "FILE: the INPUT if none is given; for scripts")
     ("default-output", po::value<std::string>(), "FOLDER: where NAME.obj, NAME.svg and NAME.json are written, NAME being that of INPUT without its "
        "extension, if none of -o, --svg, --html and --report is given; for scripts")
@@ -353,6 +355,10 @@ void parse_numbers(const po::variables_map& values, Options& options)
   if(iterations < 0 || iterations > 1000000)
     throw Usage_error("--max-iterations takes a number from 0 to 1000000");
   options.maximum_number_of_iterations = static_cast<unsigned int>(iterations);
+  const long long threads = values["threads"].as<long long>();
+  if(threads < 1 || threads > 1000)
+    throw Usage_error("--threads takes a number from 1 to 1000");
+  options.number_of_threads = static_cast<unsigned int>(threads);
 }
 
 CGAL::Conformal_equivalence::Retriangulation parse_retriangulation(const std::string& value)

@@ -31,6 +31,7 @@ struct Solver_options
   Newton_strategy newton_strategy = Newton_strategy::LINE_SEARCH;   ///< how steps are kept from going too far
   Retriangulation retriangulation = Retriangulation::WHEN_NEEDED;   ///< whether edges may be flipped
   Border_edges border_edges = Border_edges::FLIPPABLE;              ///< whether border edges may be flipped, too
+  unsigned int number_of_threads = 1;     ///< how many threads may be used; one without TBB. Results do not depend on it
 
   /// Whether the triangulation is one that Ptolemy flips have led to: flips then go on from the beginning, and it is not tried as it is.
   /// (No named parameter says so.)
@@ -59,6 +60,7 @@ Solver_options read_solver_options(const NamedParameters& np, std::size_t number
   result.newton_strategy = choose_parameter(get_parameter(np, internal_np::conformal_newton_strategy), result.newton_strategy);
   result.retriangulation = choose_parameter(get_parameter(np, internal_np::conformal_retriangulation), result.retriangulation);
   result.border_edges = choose_parameter(get_parameter(np, internal_np::conformal_border_edges), result.border_edges);
+  result.number_of_threads = choose_parameter(get_parameter(np, internal_np::conformal_number_of_threads), result.number_of_threads);
   if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_initial_u_t>::value)
   {
     const auto map = get_parameter(np, internal_np::conformal_initial_u);

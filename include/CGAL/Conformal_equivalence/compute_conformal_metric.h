@@ -112,6 +112,11 @@ public:
   ///     \cgalParamType{`Border_edges`}
   ///     \cgalParamDefault{`Border_edges::FLIPPABLE`}
   ///   \cgalParamNEnd
+  ///   \cgalParamNBegin{number_of_threads}
+  ///     \cgalParamDescription{how many threads may be used: in the passes over the triangles, and by `Multifrontal_solver_traits`. The result is the same, bit for bit, for any number. Only one is used where the program does not link the CMake target `Conformal_equivalence::TBB_support`}
+  ///     \cgalParamType{`unsigned int`}
+  ///     \cgalParamDefault{`1`}
+  ///   \cgalParamNEnd
   ///   \cgalParamNBegin{initial_log_scale_factor_map}
   ///     \cgalParamDescription{where to begin, instead of at the last solution}
   ///     \cgalParamType{a readable property map with key type `std::uint32_t` and a value type convertible to `double`}

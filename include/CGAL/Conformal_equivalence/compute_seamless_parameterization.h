@@ -114,7 +114,7 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 ///   \cgalParamNBegin{log_scale_factor_map, scaled_edge_length_map}
 ///     \cgalParamDescription{as in `flatten()`: of the flat metric before it is deformed}
 ///   \cgalParamNEnd
-///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, newton_strategy, retriangulation, border_edges, sparse_linear_solver, visitor}
+///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, number_of_threads, newton_strategy, retriangulation, border_edges, sparse_linear_solver, visitor}
 ///     \cgalParamDescription{as in `flatten()`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{flattening_report}

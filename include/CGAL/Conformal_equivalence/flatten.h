@@ -124,7 +124,7 @@ namespace Conformal_equivalence {
 ///     \cgalParamType{`Layout_frame`, or `Pinned_frame<vertex_descriptor>`}
 ///     \cgalParamDefault{`Layout_frame::CANONICAL`}
 ///   \cgalParamNEnd
-///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, newton_strategy, retriangulation, border_edges, visitor}
+///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, number_of_threads, newton_strategy, retriangulation, border_edges, visitor}
 ///     \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
 ///   \cgalParamNBegin{sparse_linear_solver} \cgalParamDescription{as in `compute_conformal_metric()`} \cgalParamNEnd
 ///   \cgalParamNBegin{common_refinement}

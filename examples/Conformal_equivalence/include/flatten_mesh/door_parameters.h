@@ -26,6 +26,7 @@ inline auto common_parameters(const Options& options, const Results& results, Pr
                           .mollification(options.mollification)
                           .gradient_tolerance(options.precision_in_bits > bits_of_double ? 0. : options.tolerance)
                           .number_of_iterations(options.maximum_number_of_iterations)
+                          .number_of_threads(options.number_of_threads)
                           .retriangulation(options.retriangulation)
                           .visitor(std::ref(visitor))
                           .sparse_linear_solver(Solver_traits(options.solver));

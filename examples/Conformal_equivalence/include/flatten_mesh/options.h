@@ -43,6 +43,7 @@ struct Options
   double mollification = 0;
   unsigned int precision_in_bits = 53; // that of double, or more
   unsigned int maximum_number_of_iterations = 100;
+  unsigned int number_of_threads = 1;
   std::string solver;
   bool is_help = false, is_version = false;
 };

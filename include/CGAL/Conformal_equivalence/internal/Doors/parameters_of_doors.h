@@ -24,7 +24,7 @@ struct Parameters_of
 typedef Parameter_list<internal_np::conformal_edge_length_t, internal_np::conformal_mollification_t> Length_parameters;
 
 typedef Parameter_list<internal_np::conformal_gradient_tolerance_t, internal_np::conformal_newton_strategy_t,
-                       internal_np::conformal_retriangulation_t> Solver_parameters;
+                       internal_np::conformal_retriangulation_t, internal_np::conformal_number_of_threads_t> Solver_parameters;
 
 typedef Parameter_list<internal_np::conformal_cone_angle_t, internal_np::conformal_border_angle_t,
                        internal_np::conformal_prescribed_u_t, internal_np::conformal_initial_u_t> Condition_parameters;

@@ -146,9 +146,10 @@ private:
 
 // P^T / 2 of the residual on the double.
 template <typename NT, typename Wide>
-Scaled_vector scaled_wide_residual(const Folded_double<NT>& t, const std::vector<Wide>& s, const Conformal_conditions<NT>& conditions)
+Scaled_vector scaled_wide_residual(const Folded_double<NT>& t, const std::vector<Wide>& s, const Conformal_conditions<NT>& conditions,
+                                   const Concurrency& concurrency = Concurrency())
 {
-  Scaled_vector result = scaled_wide_residual(t.triangulation(), t.spread(s), t.conditions(conditions));
+  Scaled_vector result = scaled_wide_residual(t.triangulation(), t.spread(s), t.conditions(conditions), concurrency);
   result.entries = t.fold(result.entries);
   return result;
 }
@@ -227,6 +228,12 @@ public:
   {}
 
   Ideal_delaunay_energy<NT>& ideal() { return energy_; }
+
+  void set_concurrency(const Concurrency& concurrency) override
+  {
+    Base::set_concurrency(concurrency);
+    energy_.set_concurrency(concurrency);
+  }
 
   bool evaluate(const Vertex_vector& u) override
   {

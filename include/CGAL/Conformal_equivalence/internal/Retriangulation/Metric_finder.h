@@ -380,6 +380,8 @@ private:
   void minimize(Refinable_energy<NT>& energy, const Conditions& conditions, const Solver_options& options, bool may_give_up, Metric& result)
   {
     has_given_up_ = false;
+    energy.set_concurrency(Concurrency(options.number_of_threads));
+    linear_.set_number_of_threads(options.number_of_threads);
     linear_.set_free(scales_.free_vertices(conditions));
     const Lower_bounds bounds = scales_.lower_bounds(conditions);
     hold_one_of_each(bounds);

@@ -252,6 +252,12 @@ public:
 
   Ideal_delaunay_energy<NT>& ideal() { return energy_; }
 
+  void set_concurrency(const Concurrency& concurrency) override
+  {
+    Base::set_concurrency(concurrency);
+    energy_.set_concurrency(concurrency);
+  }
+
   bool evaluate(const Vertex_vector& u) override { return energy_.evaluate(u); }
   const std::vector<double>& angle_sums() const override { return energy_.angle_sums(); }
   const std::vector<double>& weights() const override { return energy_.weights(); }

@@ -68,6 +68,9 @@ public:
   typedef typename Wider_number<NT>::type Wide;
   typedef std::vector<Wide> Factors;
 
+  // How many threads may be used. Results do not depend on it.
+  virtual void set_concurrency(const Concurrency& concurrency) = 0;
+
   // The angle sums less their targets.
   virtual Scaled_vector residual_at(const Factors& s, const Conformal_conditions<NT>& conditions) const = 0;
 

@@ -32,6 +32,9 @@ public:
   // The next matrix has another pattern.
   virtual void forget_pattern() = 0;
 
+  // How many threads may be used, if the solver traits have any use for it.
+  virtual void set_number_of_threads(unsigned number_of_threads) = 0;
+
   // factorizes the symmetric matrix of which `lower` is the lower half
   virtual bool factor(Eigen::SparseMatrix<double> lower) = 0;
 
@@ -56,6 +59,12 @@ template <typename Traits>
 struct Has_preconditioner<Traits, std::void_t<decltype(std::declval<Traits&>().precondition(
     std::declval<const typename Traits::Vector&>(), std::declval<typename Traits::Vector&>()))> > : std::true_type {};
 
+template <typename Traits, typename = void>
+struct Has_threads : std::false_type {};
+
+template <typename Traits>
+struct Has_threads<Traits, std::void_t<decltype(std::declval<Traits&>().set_number_of_threads(1u))> > : std::true_type {};
+
 // The factor that solver traits make. Traits without the split of analysis
 // and factorization (any model of CGAL's `SparseLinearAlgebraWithFactorTraits_d`)
 // get the whole matrix through `set_coef()`.
@@ -69,6 +78,12 @@ public:
   explicit Factorization_by(const SolverTraits& traits) : traits_(traits) {}
 
   void forget_pattern() override { is_analyzed_ = false; }
+
+  void set_number_of_threads([[maybe_unused]] unsigned number_of_threads) override
+  {
+    if constexpr(Has_threads<SolverTraits>::value)
+      traits_.set_number_of_threads(number_of_threads);
+  }
 
   bool factor(Eigen::SparseMatrix<double> lower) override
   {

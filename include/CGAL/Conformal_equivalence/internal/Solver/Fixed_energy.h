@@ -43,9 +43,11 @@ public:
   // Keeps a reference to `t`.
   explicit Energy_on_surface(const Surface& t) : surface_(t) {}
 
+  void set_concurrency(const Concurrency& concurrency) override { concurrency_ = concurrency; }
+
   Scaled_vector residual_at(const Factors& s, const Conformal_conditions<NT>& conditions) const override
   {
-    return scaled_wide_residual(surface_, s, conditions);
+    return scaled_wide_residual(surface_, s, conditions, concurrency_);
   }
 
   std::vector<double> weights_at(const Factors& s) const override { return wide_weights(surface_, s); }
@@ -62,6 +64,7 @@ protected:
 
 private:
   const Surface& surface_;
+  Concurrency concurrency_;
 };
 
 template <typename NT>
@@ -72,6 +75,12 @@ class Fixed_energy final : public Energy_on_surface<NT, Intrinsic_triangulation<
 public:
   // Keeps a reference to `t`, which must not change. `normalize` as for `Conformal_energy`.
   explicit Fixed_energy(const Intrinsic_triangulation<NT>& t, bool normalize = false) : Base(t), energy_(t, normalize) {}
+
+  void set_concurrency(const Concurrency& concurrency) override
+  {
+    Base::set_concurrency(concurrency);
+    energy_.set_concurrency(concurrency);
+  }
 
   bool evaluate(const Vertex_vector& u) override { return energy_.evaluate(u); }
   const std::vector<double>& angle_sums() const override { return energy_.angle_sums(); }

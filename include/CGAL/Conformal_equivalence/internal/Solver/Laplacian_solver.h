@@ -147,6 +147,9 @@ public:
 
   void forget_factor() { has_factor_ = false; }
 
+  // How many threads may be used. Results do not depend on it.
+  void set_number_of_threads(unsigned number_of_threads) { factor_->set_number_of_threads(number_of_threads); }
+
   // Holds some of the free vertices. The kept factor still serves.
   void hold(std::vector<char> held) { graph_.held = std::move(held); }
   void hold_none() { graph_.held.clear(); }

@@ -32,6 +32,9 @@ public:
   // Returns whether the matrix is positive definite as far as rounding tells. \pre its pattern was analyzed
   bool factorize(Lower_half a);
 
+  // How many threads may be used. Results do not depend on it.
+  void set_concurrency(const Concurrency& concurrency);
+
   // Replaces b by approximately A^-1 b: the product with one symmetric positive definite matrix, up to rounding. Returns whether there is a factor.
   bool precondition(std::vector<double>& b);
 
@@ -47,7 +50,18 @@ private:
   std::unique_ptr<Multifrontal_factor<Single> > single_; // at most one of both is there
   std::unique_ptr<Multifrontal_factor<Double> > double_;
   bool is_solving_ = false;
+  Concurrency concurrency_;
 };
+
+template <typename Single, typename Double>
+void Mixed_precision_factor<Single, Double>::set_concurrency(const Concurrency& concurrency)
+{
+  concurrency_ = concurrency;
+  if(single_)
+    single_->set_concurrency(concurrency);
+  if(double_)
+    double_->set_concurrency(concurrency);
+}
 
 template <typename Single, typename Double>
 void Mixed_precision_factor<Single, Double>::analyze(const Lower_half& a)
@@ -69,7 +83,7 @@ bool Mixed_precision_factor<Single, Double>::factorize(Lower_half a)
   {
     double_.reset();
     if(!single_)
-      single_ = std::make_unique<Multifrontal_factor<Single> >(symbolic_);
+      single_ = std::make_unique<Multifrontal_factor<Single> >(symbolic_, concurrency_);
     const double least_pivot = 100 * double(std::numeric_limits<Single>::epsilon());
     if(single_->factorize(a_) && single_->least_pivot() > least_pivot)
       return true;
@@ -82,7 +96,7 @@ template <typename Single, typename Double>
 bool Mixed_precision_factor<Single, Double>::make_double_factor()
 {
   if(!double_)
-    double_ = std::make_unique<Multifrontal_factor<Double> >(symbolic_);
+    double_ = std::make_unique<Multifrontal_factor<Double> >(symbolic_, concurrency_);
   const bool is_made = double_->factorize(a_);
   if(is_made)
     single_.reset();

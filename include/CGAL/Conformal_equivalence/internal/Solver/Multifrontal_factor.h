@@ -12,6 +12,7 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_MULTIFRONTAL_FACTOR_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_MULTIFRONTAL_FACTOR_H
 
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Dense_front.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Symbolic_factor.h>
 
@@ -31,7 +32,9 @@ template <typename Number>
 class Multifrontal_factor
 {
 public:
-  explicit Multifrontal_factor(std::shared_ptr<const Symbolic_factor> symbolic) : symbolic_(std::move(symbolic)) {}
+  explicit Multifrontal_factor(std::shared_ptr<const Symbolic_factor> symbolic, const Concurrency& concurrency = Concurrency())
+    : symbolic_(std::move(symbolic)), concurrency_(concurrency)
+  {}
 
   // Returns whether the matrix is positive definite as far as rounding tells; one with numbers that are not finite is not.
   // \pre its entries are at the positions that were analyzed
@@ -40,26 +43,50 @@ public:
   // Replaces b by A^-1 b. \pre the last factorization was a success
   void solve(std::vector<double>& b);
 
+  // What is done with the factor may use several threads. Results do not depend on their number.
+  void set_concurrency(const Concurrency& concurrency) { concurrency_ = concurrency; }
+
   // The smallest pivot, of the matrix that is scaled to a diagonal of about 1: an upper bound of its smallest eigenvalue.
   double least_pivot() const { return double(least_pivot_); }
 
 private:
   typedef Symbolic_factor::Supernode Supernode;
   typedef Dense_front<Number> Front;
+  static_assert(std::size_t(Front::overhang) <= Symbolic_factor::gap, "groups must not write to each other");
+
+  // What one group of subtrees, or the top, needs for itself.
+  struct Workspace
+  {
+    std::vector<Number> stack[2]; // updates
+    Number* end[2];               // of what is on the stacks
+    std::vector<Number> front;    // a vector on one front
+    std::vector<Number> on_top;   // what vectors of the group add to the columns of the top
+    Number least_pivot;
+    bool is_eliminated;
+  };
 
   bool scale(const Lower_half& a);
-  void assemble(std::size_t s, Number* panel, Number* update, Number*& children_end);
+  void prepare();
+  void eliminate_group(std::size_t g);
+  void eliminate_top();
+  bool eliminate(int s, Number* update, Workspace& space);
+  void assemble(int s, Number* panel, Number* update, Workspace& space);
   void add_update(const Supernode& child, const Number* from, const Supernode& node, Number* panel, Number* update) const;
   void forward();
+  void forward(const Supernode& node, int end_column, Workspace& space);
   void backward();
+  void backward(const Supernode& node, Number* front);
 
   std::shared_ptr<const Symbolic_factor> symbolic_;
   std::vector<double> scale_;      // by unknown
   std::vector<Number> entries_;    // of the scaled matrix
   std::vector<Number> values_;     // of L, panel by panel
-  std::vector<Number> stack_[2];   // updates
-  std::vector<Number> x_, front_x_;
+  std::vector<Number> kept_;       // updates of the roots of subtrees
+  std::vector<std::size_t> place_of_kept_; // by supernode, if it is such a root
+  std::vector<Workspace> spaces_;  // by group, and of the top
+  std::vector<Number> x_;
   Number least_pivot_ = 0;
+  Concurrency concurrency_;
 };
 
 // The entries of the scaled matrix. Returns whether all of them are finite and the diagonal is positive.
@@ -92,32 +119,82 @@ bool Multifrontal_factor<Number>::scale(const Lower_half& a)
 template <typename Number>
 bool Multifrontal_factor<Number>::factorize(const Lower_half& a)
 {
-  const Symbolic_factor& symbolic = *symbolic_;
   if(!scale(a))
     return false;
-  values_.resize(symbolic.number_of_values + Front::overhang);
-  Number* top[2];
-  for(int i = 0; i < 2; ++i)
-  {
-    stack_[i].resize(symbolic.stack_size[i] + Front::overhang);
-    top[i] = stack_[i].data();
-  }
+  prepare();
+  concurrency_.for_each(int(symbolic_->groups.size()), [this](int g) { eliminate_group(std::size_t(g)); });
+  eliminate_top();
   least_pivot_ = (std::numeric_limits<Number>::max)();
-  for(std::size_t s = 0; s < symbolic.supernodes.size(); ++s)
+  bool is_eliminated = true;
+  for(const Workspace& space : spaces_)
   {
-    const Supernode& node = symbolic.supernodes[s];
-    Number *const panel = values_.data() + node.panel, *const update = top[node.depth % 2];
-    assemble(s, panel, update, top[1 - node.depth % 2]);
-    if(!Front::eliminate(panel, update, node.number_of_columns, node.number_of_rows, least_pivot_))
-      return false;
-    top[node.depth % 2] += node.update_size();
+    least_pivot_ = (std::min)(least_pivot_, space.least_pivot);
+    is_eliminated = is_eliminated && space.is_eliminated;
   }
-  return least_pivot_ > std::numeric_limits<Number>::epsilon(); // smaller ones have not a single digit
+  return is_eliminated && least_pivot_ > std::numeric_limits<Number>::epsilon(); // smaller ones have not a single digit
+}
+
+// Makes room, which is kept for the next factorization.
+template <typename Number>
+void Multifrontal_factor<Number>::prepare()
+{
+  const Symbolic_factor& symbolic = *symbolic_;
+  values_.resize(symbolic.number_of_values + Front::overhang);
+  kept_.resize(symbolic.size_of_kept_updates + Front::overhang);
+  place_of_kept_.resize(symbolic.supernodes.size());
+  for(const std::vector<Symbolic_factor::Subtree>& group : symbolic.groups)
+    for(const Symbolic_factor::Subtree& subtree : group)
+      place_of_kept_[std::size_t(subtree.end) - 1] = subtree.update;
+  spaces_.resize(symbolic.stacks.size());
+  for(std::size_t g = 0; g < spaces_.size(); ++g)
+  {
+    for(int i = 0; i < 2; ++i)
+    {
+      spaces_[g].stack[i].resize(symbolic.stacks[g].of_parity[i] + Front::overhang);
+      spaces_[g].end[i] = spaces_[g].stack[i].data();
+    }
+    spaces_[g].least_pivot = (std::numeric_limits<Number>::max)();
+    spaces_[g].is_eliminated = true;
+  }
+}
+
+template <typename Number>
+void Multifrontal_factor<Number>::eliminate_group(std::size_t g)
+{
+  Workspace& space = spaces_[g];
+  for(const Symbolic_factor::Subtree& subtree : symbolic_->groups[g])
+    for(int s = subtree.first; s < subtree.end && space.is_eliminated; ++s)
+      space.is_eliminated = eliminate(s, s == subtree.end - 1 ? kept_.data() + subtree.update : nullptr, space);
+}
+
+template <typename Number>
+void Multifrontal_factor<Number>::eliminate_top()
+{
+  Workspace& space = spaces_.back();
+  for(std::size_t g = 0; g + 1 < spaces_.size(); ++g)
+    space.is_eliminated = space.is_eliminated && spaces_[g].is_eliminated;
+  for(std::size_t i = 0; i < symbolic_->top.size() && space.is_eliminated; ++i)
+    space.is_eliminated = eliminate(symbolic_->top[i], nullptr, space);
+}
+
+// The front of the supernode s, whose update goes to the stack, unless another place is given.
+template <typename Number>
+bool Multifrontal_factor<Number>::eliminate(int s, Number* update, Workspace& space)
+{
+  const Supernode& node = symbolic_->supernodes[s];
+  Number* const panel = values_.data() + node.panel;
+  Number* const to = update != nullptr ? update : space.end[node.depth % 2];
+  assemble(s, panel, to, space);
+  if(!Front::eliminate(panel, to, node.number_of_columns, node.number_of_rows, space.least_pivot))
+    return false;
+  if(update == nullptr)
+    space.end[node.depth % 2] += node.update_size();
+  return true;
 }
 
 // Makes the front of a supernode of its entries and of the updates of its children, which it takes from their stack.
 template <typename Number>
-void Multifrontal_factor<Number>::assemble(std::size_t s, Number* panel, Number* update, Number*& children_end)
+void Multifrontal_factor<Number>::assemble(int s, Number* panel, Number* update, Workspace& space)
 {
   const Symbolic_factor& symbolic = *symbolic_;
   const Supernode& node = symbolic.supernodes[s];
@@ -125,10 +202,13 @@ void Multifrontal_factor<Number>::assemble(std::size_t s, Number* panel, Number*
   std::fill_n(update, node.update_size(), Number(0));
   for(std::size_t k = symbolic.first_entry[s]; k < symbolic.first_entry[s + 1]; ++k)
     values_[symbolic.entries[k].place] = entries_[symbolic.entries[k].source];
+  Number*& children_end = space.end[1 - node.depth % 2];
   for(int child = node.first_child; child != Symbolic_factor::none; child = symbolic.supernodes[child].next_sibling)
   {
-    children_end -= symbolic.supernodes[child].update_size();
-    add_update(symbolic.supernodes[child], children_end, node, panel, update);
+    const bool is_kept = symbolic.is_in_top(s) && !symbolic.is_in_top(child);
+    if(!is_kept)
+      children_end -= symbolic.supernodes[child].update_size();
+    add_update(symbolic.supernodes[child], is_kept ? kept_.data() + place_of_kept_[child] : children_end, node, panel, update);
   }
 }
 
@@ -151,54 +231,91 @@ template <typename Number>
 void Multifrontal_factor<Number>::solve(std::vector<double>& b)
 {
   const Symbolic_factor& symbolic = *symbolic_;
+  const std::size_t n = std::size_t(symbolic.size());
   double largest = 0;
-  for(int j = 0; j < symbolic.size(); ++j)
+  for(std::size_t j = 0; j < n; ++j)
     largest = (std::max)(largest, std::abs(b[j] * scale_[j]));
   int exponent = 0;
   std::frexp(largest, &exponent);
   const double shrink = std::ldexp(1., -exponent), grow = std::ldexp(1., exponent);
   x_.resize(b.size());
-  front_x_.assign(std::size_t(symbolic.largest_front) + Front::overhang, Number(0));
-  for(int j = 0; j < symbolic.size(); ++j)
-    x_[j] = Number(b[symbolic.unknowns[j]] * scale_[symbolic.unknowns[j]] * shrink);
+  for(Workspace& space : spaces_)
+  {
+    space.front.assign(std::size_t(symbolic.largest_front) + Front::overhang, Number(0));
+    space.on_top.resize(symbolic.top_columns.size());
+  }
+  concurrency_.for_each_range(n, [&](std::size_t first, std::size_t last)
+  {
+    for(std::size_t j = first; j < last; ++j)
+      x_[j] = Number(b[symbolic.unknowns[j]] * scale_[symbolic.unknowns[j]] * shrink);
+  });
   forward();
   backward();
-  for(int j = 0; j < symbolic.size(); ++j)
-    b[symbolic.unknowns[j]] = double(x_[j]) * scale_[symbolic.unknowns[j]] * grow;
+  concurrency_.for_each_range(n, [&](std::size_t first, std::size_t last)
+  {
+    for(std::size_t j = first; j < last; ++j)
+      b[symbolic.unknowns[j]] = double(x_[j]) * scale_[symbolic.unknowns[j]] * grow;
+  });
 }
 
 template <typename Number>
 void Multifrontal_factor<Number>::forward()
 {
-  Number* const x = front_x_.data();
-  for(const Supernode& node : symbolic_->supernodes)
+  const Symbolic_factor& symbolic = *symbolic_;
+  concurrency_.for_each(int(symbolic.groups.size()), [&](int g)
   {
-    const int* const rows = symbolic_->rows.data() + node.first_row;
-    const int columns = node.number_of_columns;
-    std::copy_n(x_.data() + node.first_column, columns, x);
-    std::fill_n(x + columns, node.number_of_rows + Front::overhang, Number(0));
-    Front::solve_forward(values_.data() + node.panel, columns, node.number_of_rows, x);
-    std::copy_n(x, columns, x_.data() + node.first_column);
-    for(int i = 0; i < node.number_of_rows; ++i)
-      x_[rows[i]] += x[columns + i];
-  }
+    std::fill(spaces_[g].on_top.begin(), spaces_[g].on_top.end(), Number(0));
+    for(const Symbolic_factor::Subtree& subtree : symbolic.groups[g])
+      for(int s = subtree.first; s < subtree.end; ++s)
+        forward(symbolic.supernodes[s], symbolic.supernodes[subtree.end - 1].end_column(), spaces_[g]);
+  });
+  for(std::size_t g = 0; g < symbolic.groups.size(); ++g)
+    for(std::size_t i = 0; i < symbolic.top_columns.size(); ++i)
+      x_[symbolic.top_columns[i]] += spaces_[g].on_top[i];
+  for(const int s : symbolic.top)
+    forward(symbolic.supernodes[s], symbolic.size(), spaces_.back());
+}
+
+// One supernode. Rows from `end_column` on are in the top, which groups do not touch.
+template <typename Number>
+void Multifrontal_factor<Number>::forward(const Supernode& node, int end_column, Workspace& space)
+{
+  const int* const rows = symbolic_->rows.data() + node.first_row;
+  const int columns = node.number_of_columns;
+  Number* const x = space.front.data();
+  std::copy_n(x_.data() + node.first_column, columns, x);
+  std::fill_n(x + columns, node.number_of_rows + Front::overhang, Number(0));
+  Front::solve_forward(values_.data() + node.panel, columns, node.number_of_rows, x);
+  std::copy_n(x, columns, x_.data() + node.first_column);
+  for(int i = 0; i < node.number_of_rows; ++i)
+    (rows[i] < end_column ? x_[rows[i]] : space.on_top[symbolic_->place_in_top[rows[i]]]) += x[columns + i];
 }
 
 template <typename Number>
 void Multifrontal_factor<Number>::backward()
 {
-  Number* const x = front_x_.data();
-  for(auto node = symbolic_->supernodes.rbegin(); node != symbolic_->supernodes.rend(); ++node)
+  const Symbolic_factor& symbolic = *symbolic_;
+  for(auto s = symbolic.top.rbegin(); s != symbolic.top.rend(); ++s)
+    backward(symbolic.supernodes[*s], spaces_.back().front.data());
+  concurrency_.for_each(int(symbolic.groups.size()), [&](int g)
   {
-    const int* const rows = symbolic_->rows.data() + node->first_row;
-    const int columns = node->number_of_columns;
-    std::copy_n(x_.data() + node->first_column, columns, x);
-    for(int i = 0; i < node->number_of_rows; ++i)
-      x[columns + i] = x_[rows[i]];
-    std::fill_n(x + node->front_size(), Front::overhang, Number(0));
-    Front::solve_backward(values_.data() + node->panel, columns, node->number_of_rows, x);
-    std::copy_n(x, columns, x_.data() + node->first_column);
-  }
+    for(auto subtree = symbolic.groups[g].rbegin(); subtree != symbolic.groups[g].rend(); ++subtree)
+      for(int s = subtree->end - 1; s >= subtree->first; --s)
+        backward(symbolic.supernodes[s], spaces_[g].front.data());
+  });
+}
+
+template <typename Number>
+void Multifrontal_factor<Number>::backward(const Supernode& node, Number* x)
+{
+  const int* const rows = symbolic_->rows.data() + node.first_row;
+  const int columns = node.number_of_columns;
+  std::copy_n(x_.data() + node.first_column, columns, x);
+  for(int i = 0; i < node.number_of_rows; ++i)
+    x[columns + i] = x_[rows[i]];
+  std::fill_n(x + node.front_size(), Front::overhang, Number(0));
+  Front::solve_backward(values_.data() + node.panel, columns, node.number_of_rows, x);
+  std::copy_n(x, columns, x_.data() + node.first_column);
 }
 
 } // namespace internal

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -206,7 +207,8 @@ public:
     int source;
   };
 
-  Symbolic_factor(const Lower_half& a, const Elimination_order& order)
+  // Problems of at least `least_size_of_groups` unknowns are divided into groups.
+  Symbolic_factor(const Lower_half& a, const Elimination_order& order, int least_size_of_groups = 5000)
   {
     const std::vector<int> parent = elimination_tree::parents(
       elimination_tree::ordered_pattern(a, inverse_permutation(order.unknowns()), false));
@@ -219,6 +221,9 @@ public:
     find_supernodes(tree, elimination_tree::column_counts(by_columns, tree));
     find_fronts(a, by_columns);
     find_depths();
+    find_groups(size() < least_size_of_groups ? 1 : 4);
+    separate_groups();
+    find_stacks();
   }
 
   int size() const { return int(unknowns.size()); }
@@ -230,8 +235,35 @@ public:
   std::vector<Entry> entries;              // by supernode
   std::vector<std::size_t> first_entry;    // by supernode, and the end
   std::size_t number_of_values = 0;        // of L, with the zeros
-  std::size_t stack_size[2] = {0, 0};      // of the updates that wait for their parents, of even and odd depth
   int largest_front = 0;
+
+  // A supernode with all below it: successive ones, the last of which is the root. Its update is kept for the front of its parent.
+  struct Subtree
+  {
+    int first, end;
+    std::size_t update; // where the update is kept
+  };
+
+  // The updates that wait for their parents are on two stacks in turn, of even and odd depth: when a front is formed, its children are on top
+  // of one, and its own update goes to the other one.
+  struct Stack_sizes
+  {
+    std::size_t of_parity[2] = {0, 0};
+  };
+
+  // Subtrees in groups, which can be worked on at the same time, and the supernodes above them, the top. The groups depend on nothing but the matrix.
+  std::vector<std::vector<Subtree> > groups;
+  std::vector<Stack_sizes> stacks;         // by group, and of the top
+  std::vector<int> top;                    // supernodes, ascending
+  std::vector<int> top_columns;            // ascending
+  std::vector<int> place_in_top;           // by column: its number there, or none
+  std::size_t size_of_kept_updates = 0;
+
+  // Numbers between the panels, and the updates that are kept, of one group and those of another: vectors that reach over the end of one must
+  // not write to the other.
+  static constexpr std::size_t gap = 16;
+
+  bool is_in_top(int s) const { return place_in_top[supernodes[s].first_column] != none; }
 
 private:
   // Columns that follow each other and are merged; `count` entries in the first column, `zeros` of them all that would not be there otherwise.
@@ -369,21 +401,132 @@ private:
     return result;
   }
 
-  // Updates are kept on two stacks in turn: when a front is formed, its children are on top of one, and its own update goes to the other one.
   void find_depths()
   {
     for(int s = int(supernodes.size()) - 1; s >= 0; --s)
       if(supernodes[s].parent != none)
         supernodes[s].depth = supernodes[supernodes[s].parent].depth + 1;
-    std::size_t height[2] = {0, 0};
-    for(const Supernode& node : supernodes)
+  }
+
+  // About the operations that a front takes, with what it takes to make it.
+  static double work(const Supernode& node)
+  {
+    double result = 2000;
+    for(int k = 0; k < node.number_of_columns; ++k)
+      result += double(node.front_size() - k) * double(node.front_size() - k);
+    return result;
+  }
+
+  // Subtrees that are more than a sixteenth of all the work are taken apart: their roots are in the top. What hangs on it is dealt out, the
+  // largest first, always to the group that has least. Small problems, for which it is not worth while, are one group.
+  void find_groups(std::size_t number_of_groups)
+  {
+    const int n = int(supernodes.size());
+    std::vector<double> work_below(supernodes.size(), 0.);
+    std::vector<int> first(supernodes.size()); // of its subtree
+    std::iota(first.begin(), first.end(), 0);
+    double all = 0;
+    for(int s = 0; s < n; ++s)
     {
-      std::size_t &own = height[node.depth % 2], &childrens = height[1 - node.depth % 2];
-      own += node.update_size();
-      stack_size[node.depth % 2] = (std::max)(stack_size[node.depth % 2], own);
-      for(int child = node.first_child; child != none; child = supernodes[child].next_sibling)
-        childrens -= supernodes[child].update_size();
+      const double own = work(supernodes[s]);
+      const int parent = supernodes[s].parent;
+      all += own;
+      work_below[s] += own;
+      if(parent == none)
+        continue;
+      work_below[parent] += work_below[s];
+      first[parent] = (std::min)(first[parent], first[s]);
     }
+    place_in_top.assign(unknowns.size(), none);
+    std::vector<int> roots;
+    for(int s = n - 1; s >= 0; --s)
+    {
+      const bool hangs_on_top = supernodes[s].parent == none || is_in_top(supernodes[s].parent);
+      if(hangs_on_top && number_of_groups > 1 && work_below[s] > all / double(4 * number_of_groups))
+      {
+        top.push_back(s);
+        std::fill_n(place_in_top.begin() + supernodes[s].first_column, supernodes[s].number_of_columns, 0);
+      }
+      else if(hangs_on_top)
+        roots.push_back(s);
+    }
+    std::reverse(top.begin(), top.end());
+    for(const int s : top)
+      for(int j = supernodes[s].first_column; j < supernodes[s].end_column(); ++j)
+      {
+        place_in_top[j] = int(top_columns.size());
+        top_columns.push_back(j);
+      }
+    deal_out(roots, first, work_below, number_of_groups);
+  }
+
+  void deal_out(std::vector<int> roots, const std::vector<int>& first, const std::vector<double>& work_below, std::size_t number_of_groups)
+  {
+    std::sort(roots.begin(), roots.end(), [&](int s, int t) { return work_below[s] > work_below[t] || (work_below[s] == work_below[t] && s < t); });
+    groups.resize(number_of_groups);
+    std::vector<double> load(number_of_groups, 0.);
+    for(const int s : roots)
+    {
+      const std::size_t least = std::size_t(std::min_element(load.begin(), load.end()) - load.begin());
+      groups[least].push_back({first[s], s + 1, 0});
+      load[least] += work_below[s];
+    }
+    for(std::vector<Subtree>& group : groups)
+    {
+      std::sort(group.begin(), group.end(), [](const Subtree& s, const Subtree& t) { return s.first < t.first; });
+      for(Subtree& subtree : group)
+      {
+        subtree.update = size_of_kept_updates;
+        size_of_kept_updates += supernodes[subtree.end - 1].update_size() + gap;
+      }
+    }
+  }
+
+  // Moves panels apart, behind the roots of subtrees and the supernodes of the top.
+  void separate_groups()
+  {
+    std::vector<char> is_last(supernodes.size(), 0);
+    for(const std::vector<Subtree>& group : groups)
+      for(const Subtree& subtree : group)
+        is_last[subtree.end - 1] = 1;
+    for(const int s : top)
+      is_last[s] = 1;
+    std::size_t shift = 0;
+    for(std::size_t s = 0; s < supernodes.size(); ++s)
+    {
+      supernodes[s].panel += shift;
+      for(std::size_t k = first_entry[s]; k < first_entry[s + 1]; ++k)
+        entries[k].place += shift;
+      if(is_last[s])
+        shift += gap;
+    }
+    number_of_values += shift;
+  }
+
+  void find_stacks()
+  {
+    stacks.resize(groups.size() + 1);
+    for(std::size_t g = 0; g < groups.size(); ++g)
+      for(const Subtree& subtree : groups[g])
+      {
+        Stack_sizes height;
+        for(int s = subtree.first; s < subtree.end - 1; ++s)
+          put_on_stack(s, true, height, stacks[g]);
+      }
+    Stack_sizes height;
+    for(const int s : top)
+      put_on_stack(s, false, height, stacks.back());
+  }
+
+  // The stacks grow by the update of s, and lose those of its children, as far as they are there.
+  void put_on_stack(int s, bool has_all_children, Stack_sizes& height, Stack_sizes& largest) const
+  {
+    const int parity = supernodes[s].depth % 2;
+    height.of_parity[parity] += supernodes[s].update_size();
+    largest.of_parity[parity] = (std::max)(largest.of_parity[parity], height.of_parity[parity]);
+    for(int child = supernodes[s].first_child; child != none; child = supernodes[child].next_sibling)
+      if(has_all_children || is_in_top(child))
+        height.of_parity[1 - parity] -= supernodes[child].update_size();
   }
 };
 

@@ -19,6 +19,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ENERGY_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Number_constants.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
@@ -61,6 +62,9 @@ public:
       update_length(e);
   }
 
+  // How many threads may be used. Results do not depend on it.
+  void set_concurrency(const Concurrency& concurrency) { concurrency_ = concurrency; }
+
   // The length of `e` has changed.
   void update_length(Index e)
   {
@@ -78,9 +82,7 @@ public:
   // Returns false if a length overflows, underflows or is no number.
   bool evaluate(const std::vector<NT>& u)
   {
-    scale_exponent_.clear();
-    for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      set_log_scale(v, u[v]);
+    set_scales(u);
     clear();
     const bool is_finite = add_all_triangles();
     for(std::size_t v = 0; v < product_.size(); ++v)
@@ -200,6 +202,24 @@ protected:
 private:
   static NT ln_2() { return Number_constants<NT>::ln_2(); }
 
+  // Of all vertices; one after the other where exponents may have to be set apart.
+  void set_scales(const std::vector<NT>& u)
+  {
+    using std::abs;
+    using std::exp;
+    const double safe = 400; // well within what set_apart() leaves as it is
+    scale_exponent_.clear();
+    if(std::all_of(u.begin(), u.end(), [&](const NT& x) { return abs(x) < safe; }))
+      concurrency_.for_each_range(t_.number_of_vertices(), [&](std::size_t first, std::size_t last)
+      {
+        for(std::size_t v = first; v < last; ++v)
+          scale_[v] = exp(u[v] / 2);
+      });
+    else
+      for(Index v = 0; v < t_.number_of_vertices(); ++v)
+        set_log_scale(v, u[v]);
+  }
+
   // The exponent `exponent` of the `i`-th of `size` numbers is written to `apart` if three such numbers may have a product out of range. Returns by
   // which power of two the number is to be divided.
   static int set_apart(int exponent, std::size_t i, std::size_t size, std::vector<int>& apart)
@@ -293,33 +313,54 @@ private:
   {
     if constexpr(sums_up_angles)
       if(!ranges_far())
-        return has_avx2() ? add_all_with_avx2() : add_all_by_vectors<16>();
+        return has_avx2() ? add_all_by_vectors<32>() : add_all_by_vectors<16>();
     return add_triangles(0);
   }
 
-  CGAL_CONFORMAL_EQUIVALENCE_AVX2 bool add_all_with_avx2() { return add_all_by_vectors<32>(); }
-
+  // Of some thousand triangles at a time angles and cotangents are computed, by several threads, and then added, by one.
   template <int bytes>
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE bool add_all_by_vectors()
+  bool add_all_by_vectors()
   {
     typedef Incircle_vectors<bytes> Triangles;
-    Triangles triangles;
+    const Index all = t_.number_of_faces() / Triangles::lanes, many = (concurrency_.is_sequential() ? 2048 : 65536) / Triangles::lanes;
+    std::vector<Triangles> triangles((std::min)(all, many));
     bool is_finite = true;
-    Index f = 0;
-    for(; f + Triangles::lanes <= t_.number_of_faces(); f += Triangles::lanes)
+    for(Index first = 0; first < all; first += many)
     {
-      compute(f, triangles, typename Triangles::Lanes());
-      for(int i = 0; i < Triangles::lanes; ++i)
-        if(triangles.is_plain[i] != 0)
-          add_corners(3 * (f + Index(i)), i, triangles);
-        else
-          is_finite = add_triangle(3 * (f + Index(i))) && is_finite;
+      const Index n = (std::min)(many, all - first);
+      concurrency_.for_each_range(n, [&](std::size_t from, std::size_t to)
+      {
+        compute(first + Index(from), first + Index(to), triangles.data() + from);
+      });
+      for(Index b = 0; b < n; ++b)
+        for(int i = 0; i < Triangles::lanes; ++i)
+        {
+          const Index h = 3 * ((first + b) * Triangles::lanes + Index(i));
+          if(triangles[b].is_plain[i] != 0)
+            add_corners(h, i, triangles[b]);
+          else
+            is_finite = add_triangle(h) && is_finite;
+        }
     }
-    return add_triangles(f) && is_finite;
+    return add_triangles(all * Triangles::lanes) && is_finite;
+  }
+
+  // The blocks of triangles from `first` on, as many as there are lanes in each.
+  void compute(Index first, Index last, Incircle_vectors<16>* triangles) const { compute_blocks(first, last, triangles); }
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 void compute(Index first, Index last, Incircle_vectors<32>* triangles) const
+  {
+    compute_blocks(first, last, triangles);
+  }
+
+  template <typename Triangles>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute_blocks(Index first, Index last, Triangles* triangles) const
+  {
+    for(Index b = first; b < last; ++b)
+      compute_block(b * Triangles::lanes, triangles[b - first], typename Triangles::Lanes());
   }
 
   template <typename Triangles, int... i>
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(Index f, Triangles& triangles, std::integer_sequence<int, i...>) const
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute_block(Index f, Triangles& triangles, std::integer_sequence<int, i...>) const
   {
     typedef typename Triangles::Vector Vector;
     const Index h = 3 * f;
@@ -329,7 +370,7 @@ private:
   }
 
   template <typename Triangles>
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE void add_corners(Index h, int i, const Triangles& triangles)
+  void add_corners(Index h, int i, const Triangles& triangles)
   {
     for(Index k = 0; k < 3; ++k)
     {
@@ -388,6 +429,7 @@ private:
   }
 
   const Triangulation& t_;
+  Concurrency concurrency_;
   int exponent_ = 0; // lengths are divided by this power of two
   std::vector<NT> length_, scale_, angle_sum_, weight_;
   std::vector<int> length_exponent_, scale_exponent_; // set apart from these; empty where there are none

@@ -9,6 +9,7 @@
 
 #include <CGAL/Conformal_equivalence/Exact_angle.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Complex_number.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double_vector.h>
@@ -16,6 +17,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -133,21 +135,26 @@ class Wide_corner_vectors
   typedef typename Numbers::Lanes                   Lanes;
   typedef Intrinsic_triangulation<double>           Triangulation;
   typedef std::vector<Wide_angle_sum<Double_double> > Sums;
-  static constexpr int lanes = Numbers::lanes;
 
 public:
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void add_all(const Triangulation& t, const std::vector<Double_double>& length, Sums& sums)
+  static constexpr int lanes = Numbers::lanes;
+
+  // The blocks of triangles from `first` to `last`, as many as there are lanes in each.
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void compute_blocks(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t first, std::uint32_t last,
+                      Wide_corner_vectors* corners)
   {
-    Wide_corner_vectors corners;
-    std::uint32_t f = 0;
-    for(; f + lanes <= t.number_of_faces(); f += lanes)
-    {
-      corners.compute(t, length, f, Lanes());
+    for(std::uint32_t b = first; b < last; ++b)
+      corners[b - first].compute(t, length, b * lanes, Lanes());
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void add_blocks(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t first, std::uint32_t last,
+                  const Wide_corner_vectors* corners, Sums& sums)
+  {
+    for(std::uint32_t b = first; b < last; ++b)
       for(int i = 0; i < lanes; ++i)
-        corners.add(t, length, f + std::uint32_t(i), i, sums);
-    }
-    for(; f < t.number_of_faces(); ++f)
-      add_one(t, length, f, sums);
+        corners[b - first].add(t, length, b * lanes + std::uint32_t(i), i, sums);
   }
 
 private:
@@ -277,12 +284,13 @@ class Wide_length_vectors
 
 public:
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void set_all(const Triangulation& t, const std::vector<Double_double>& s, std::vector<Double_double>& result)
+  void set_lengths(const Triangulation& t, const std::vector<Double_double>& s, std::uint32_t first, std::uint32_t last,
+                   std::vector<Double_double>& result)
   {
-    std::uint32_t e = 0;
-    for(; e + lanes <= t.number_of_edges(); e += lanes)
+    std::uint32_t e = first;
+    for(; e + lanes <= last; e += lanes)
       set(t, s, e, result, typename Numbers::Lanes());
-    set_wide_lengths(t, s, e, t.number_of_edges(), result);
+    set_wide_lengths(t, s, e, last, result);
   }
 
 private:
@@ -307,26 +315,91 @@ private:
   }
 };
 
-CGAL_CONFORMAL_EQUIVALENCE_AVX2 inline
-void add_wide_angles_with_avx2(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& s, std::vector<Double_double>& length,
-                               std::vector<Wide_angle_sum<Double_double> >& sum)
+// The entries of the above, for vectors of either width.
+template <int bytes>
+struct Wide_vectors
 {
-  Wide_length_vectors<32>::set_all(t, s, length);
-  Wide_corner_vectors<32>::add_all(t, length, sum);
+  typedef Intrinsic_triangulation<double>             Triangulation;
+  typedef std::vector<Double_double>                  Numbers;
+  typedef std::vector<Wide_angle_sum<Double_double> > Sums;
+  typedef std::uint32_t                               Index;
+  typedef Wide_corner_vectors<bytes>                  Corners;
+
+  static void set_lengths(const Triangulation& t, const Numbers& s, Index first, Index last, Numbers& result)
+  {
+    Wide_length_vectors<bytes>::set_lengths(t, s, first, last, result);
+  }
+
+  static void compute(const Triangulation& t, const Numbers& length, Index first, Index last, Corners* corners)
+  {
+    Corners::compute_blocks(t, length, first, last, corners);
+  }
+
+  static void add(const Triangulation& t, const Numbers& length, Index first, Index last, const Corners* corners, Sums& sums)
+  {
+    Corners::add_blocks(t, length, first, last, corners, sums);
+  }
+};
+
+struct Wide_vectors_with_avx2 : public Wide_vectors<32>
+{
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 static
+  void set_lengths(const Triangulation& t, const Numbers& s, Index first, Index last, Numbers& result)
+  {
+    Wide_length_vectors<32>::set_lengths(t, s, first, last, result);
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 static
+  void compute(const Triangulation& t, const Numbers& length, Index first, Index last, Corners* corners)
+  {
+    Corners::compute_blocks(t, length, first, last, corners);
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 static
+  void add(const Triangulation& t, const Numbers& length, Index first, Index last, const Corners* corners, Sums& sums)
+  {
+    Corners::add_blocks(t, length, first, last, corners, sums);
+  }
+};
+
+// Lengths, and then corners of some thousand triangles at a time, are computed by several threads; the latter are added by one.
+template <typename Vectors>
+void add_wide_angles_by(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& s, std::vector<Double_double>& length,
+                        std::vector<Wide_angle_sum<Double_double> >& sum, const Concurrency& concurrency)
+{
+  typedef typename Vectors::Corners Corners;
+  typedef std::uint32_t Index;
+  concurrency.for_each_range(t.number_of_edges(), [&](std::size_t first, std::size_t last)
+  {
+    Vectors::set_lengths(t, s, Index(first), Index(last), length);
+  });
+  const Index all = t.number_of_faces() / Corners::lanes, many = (concurrency.is_sequential() ? 1024 : 65536) / Corners::lanes;
+  std::vector<Corners> corners((std::min)(all, many));
+  for(Index first = 0; first < all; first += many)
+  {
+    const Index n = (std::min)(many, all - first);
+    concurrency.for_each_range(n, [&](std::size_t from, std::size_t to)
+    {
+      Vectors::compute(t, length, first + Index(from), first + Index(to), corners.data() + from);
+    });
+    Vectors::add(t, length, first, first + n, corners.data(), sum);
+  }
+  for(Index f = all * Corners::lanes; f < t.number_of_faces(); ++f)
+    add_corners(t, f, length[t.edge(3 * f)], length[t.edge(3 * f + 1)], length[t.edge(3 * f + 2)], sum);
 }
 
 inline void add_wide_angles(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& s, std::vector<Double_double>& length,
-                            std::vector<Wide_angle_sum<Double_double> >& sum)
+                            std::vector<Wide_angle_sum<Double_double> >& sum, const Concurrency& concurrency)
 {
   if(has_avx2())
-    return add_wide_angles_with_avx2(t, s, length, sum);
-  Wide_length_vectors<16>::set_all(t, s, length);
-  Wide_corner_vectors<16>::add_all(t, length, sum);
+    add_wide_angles_by<Wide_vectors_with_avx2>(t, s, length, sum, concurrency);
+  else
+    add_wide_angles_by<Wide_vectors<16> >(t, s, length, sum, concurrency);
 }
 
 template <typename NT, typename Wide>
 void add_wide_angles(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, std::vector<Wide>& length,
-                     std::vector<Wide_angle_sum<Wide> >& sum)
+                     std::vector<Wide_angle_sum<Wide> >& sum, const Concurrency&)
 {
   set_wide_lengths(t, s, 0, t.number_of_edges(), length);
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
@@ -335,11 +408,12 @@ void add_wide_angles(const Intrinsic_triangulation<NT>& t, const std::vector<Wid
 
 // The angle sums, by vertex, for the square roots `s` of the scale factors.
 template <typename NT, typename Wide>
-std::vector<Wide_angle_sum<Wide> > wide_angle_sums(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s)
+std::vector<Wide_angle_sum<Wide> > wide_angle_sums(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s,
+                                                   const Concurrency& concurrency = Concurrency())
 {
   std::vector<Wide_angle_sum<Wide> > result(t.number_of_vertices());
   std::vector<Wide> length(t.number_of_edges(), Wide(0));
-  add_wide_angles(t, s, length, result);
+  add_wide_angles(t, s, length, result, concurrency);
   return result;
 }
 

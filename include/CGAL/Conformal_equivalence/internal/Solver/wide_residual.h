@@ -35,15 +35,18 @@ template <> struct Wider_number<double> { typedef Double_double type; };
 
 // 2 arg z by vertex, for z of which all or none are nearly real.
 template <typename Wide>
-Scaled_vector twice_the_arguments(const std::vector<Complex_number<Wide> >& z)
+Scaled_vector twice_the_arguments(const std::vector<Complex_number<Wide> >& z, const Concurrency& concurrency)
 {
   using std::abs;
   using std::frexp;
   using std::ldexp;
   Scaled_vector result;
   result.entries.resize(z.size());
-  for(std::size_t v = 0; v < z.size(); ++v)
-    result.entries[v] = 2 * std::atan2(static_cast<double>(z[v].im), static_cast<double>(z[v].re));
+  concurrency.for_each_range(z.size(), [&](std::size_t first, std::size_t last)
+  {
+    for(std::size_t v = first; v < last; ++v)
+      result.entries[v] = 2 * std::atan2(static_cast<double>(z[v].im), static_cast<double>(z[v].re));
+  });
   if constexpr(std::numeric_limits<Wide>::max_exponent > 2 * std::numeric_limits<double>::max_exponent)
   {
     if(result.largest_entry() > 1e-150)
@@ -64,17 +67,20 @@ Scaled_vector twice_the_arguments(const std::vector<Complex_number<Wide> >& z)
 // Broken triangles count as in the extended energy. `s[v]` = e^{u_v / 2}.
 template <typename NT, typename Wide>
 Scaled_vector scaled_wide_residual(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s,
-                                   const Conformal_conditions<NT>& conditions)
+                                   const Conformal_conditions<NT>& conditions, const Concurrency& concurrency = Concurrency())
 {
   typedef Complex_number<Wide> Complex;
   const std::uint32_t n = t.number_of_vertices();
-  const std::vector<Wide_angle_sum<Wide> > sum = wide_angle_sums(t, s);
+  const std::vector<Wide_angle_sum<Wide> > sum = wide_angle_sums(t, s, concurrency);
   std::vector<Complex> z(n, Complex{Wide(1), Wide(0)});
   const auto is_prescribed = [&](std::uint32_t v) { return !t.is_isolated_vertex(v) && !conditions.is_fixed(v); };
-  for(std::uint32_t v = 0; v < n; ++v)
-    if(is_prescribed(v))
-      z[v] = sum[v].half_difference(conditions.angle_sum(v));
-  Scaled_vector result = twice_the_arguments(z);
+  concurrency.for_each_range(n, [&](std::size_t first, std::size_t last)
+  {
+    for(std::uint32_t v = std::uint32_t(first); v < last; ++v)
+      if(is_prescribed(v))
+        z[v] = sum[v].half_difference(conditions.angle_sum(v));
+  });
+  Scaled_vector result = twice_the_arguments(z, concurrency);
   for(std::uint32_t v = 0; v < n; ++v)
   {
     if(!is_prescribed(v))
