@@ -128,7 +128,7 @@ std::array<NT, 3> input_barycentric(const Intrinsic_triangulation<NT>& input, co
   std::array<NT, 3> result = {{NT(0), NT(0), NT(0)}};
   if(v < refinement.number_of_input_vertices)
   {
-    Index h = after != none ? after : before != none ? input.next(before) : beyond != none ? input.previous(beyond) : 3 * face;
+    Index h = after != none ? after : before != none ? input.next(before) : beyond != none ? input.previous(beyond) : input.halfedge(face);
     while(input.origin(h) != v) // at a corner between diagonals of a part no side is known
       h = input.next(h);
     result[h % 3] = NT(1);

@@ -16,6 +16,7 @@
 #include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/mollify.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
@@ -172,7 +173,7 @@ public:
   Index index_of_halfedge(halfedge_descriptor h) const
   {
     const face_descriptor f = internal::face_of_halfedge(h, *mesh_);
-    Index result = 3 * get(face_index_, f);
+    Index result = triangulation.halfedge(get(face_index_, f));
     for(halfedge_descriptor i = internal::first_halfedge(f, *mesh_); i != h; i = next(i, *mesh_))
       ++result;
     return result;
@@ -391,10 +392,9 @@ void set_lengths(Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& n
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
-  using parameters::is_default_parameter;
   if(mesh.status != Status::OK)
     return;
-  if constexpr(is_default_parameter<NamedParameters, internal_np::conformal_edge_length_t>::value)
+  if constexpr(!internal::is_given<internal_np::conformal_edge_length_t, NamedParameters>)
     set_lengths_from_points(mesh, choose_parameter(get_parameter(np, internal_np::vertex_point),
                                                    get_const_property_map(vertex_point, mesh.mesh())));
   else
@@ -484,7 +484,7 @@ std::vector<std::uint32_t> with_vertices_of_faces(const Intrinsic_triangulation<
                                                   const Intrinsic_triangulation<NT>& t, const std::vector<std::uint32_t>& faces)
 {
   for(std::uint32_t f : faces)
-    for(std::uint32_t h = 3 * f; h < 3 * f + 3; ++h)
+    for(const std::uint32_t h : t.halfedges(f))
       vertices.push_back(t.origin(h));
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());

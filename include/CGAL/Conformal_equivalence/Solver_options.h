@@ -12,6 +12,7 @@
 #include <CGAL/license/Surface_mesh_parameterization.h>
 
 #include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
@@ -61,7 +62,7 @@ Solver_options read_solver_options(const NamedParameters& np, std::size_t number
   result.retriangulation = choose_parameter(get_parameter(np, internal_np::conformal_retriangulation), result.retriangulation);
   result.border_edges = choose_parameter(get_parameter(np, internal_np::conformal_border_edges), result.border_edges);
   result.number_of_threads = choose_parameter(get_parameter(np, internal_np::conformal_number_of_threads), result.number_of_threads);
-  if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_initial_u_t>::value)
+  if constexpr(internal::is_given<internal_np::conformal_initial_u_t, NamedParameters>)
   {
     const auto map = get_parameter(np, internal_np::conformal_initial_u);
     result.initial_log_scale_factors.resize(number_of_vertices);

@@ -105,7 +105,7 @@ Surface_components connected_components(const Intrinsic_triangulation<NT>& t)
     {
       const Index f = stack.back();
       stack.pop_back();
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+      for(const Index h : t.halfedges(f))
         if(!t.is_border(h))
           enter(t.face(t.twin(h)), component);
     }

@@ -14,22 +14,42 @@
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Rectangle_corners.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
 #include <CGAL/Conformal_equivalence/read_conditions.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
 #include <CGAL/number_utils.h>
 
 #include <boost/graph/graph_traits.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace CGAL {
 namespace Conformal_equivalence {
+
+namespace internal {
+
+// The border halfedge that ends at `v`. \pre `v` is a border vertex
+template <typename TriangleMesh>
+typename boost::graph_traits<TriangleMesh>::halfedge_descriptor
+border_halfedge_to(typename boost::graph_traits<TriangleMesh>::vertex_descriptor v, const TriangleMesh& tm)
+{
+  auto result = halfedge(v, tm);
+  for(const auto h : halfedges_around_target(v, tm))
+    if(is_border(h, tm))
+      result = h;
+  CGAL_precondition(is_border(result, tm));
+  return result;
+}
+
+} // namespace internal
 
 /// \ingroup PkgConformalEquivalenceSolver
 ///
@@ -48,24 +68,41 @@ void prescribe_rectangle(const TriangleMesh& tm,
                          const std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4>& corners,
                          VertexAngleMap border_angle_map)
 {
-  typedef typename boost::graph_traits<TriangleMesh>::halfedge_descriptor halfedge_descriptor;
   if(corners[0] == boost::graph_traits<TriangleMesh>::null_vertex())
     return;
-  halfedge_descriptor first = halfedge(corners[0], tm);
-  for(halfedge_descriptor h : halfedges_around_target(corners[0], tm))
-    if(is_border(h, tm))
-      first = h;
-  CGAL_precondition(is_border(first, tm));
-
-  halfedge_descriptor h = first;
-  do
+  for(const auto h : halfedges_around_face(internal::border_halfedge_to(corners[0], tm), tm))
   {
     const bool is_corner = std::find(corners.begin(), corners.end(), target(h, tm)) != corners.end();
     put(border_angle_map, target(h, tm), is_corner ? CGAL_PI / 2 : CGAL_PI);
-    h = next(h, tm);
   }
-  while(h != first);
 }
+
+namespace internal {
+
+// The corners among the vertices of the border of `bhd`, which may be null. The report is told why there are none.
+template <typename TriangleMesh>
+std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4>
+find_rectangle_corners(const Imported_mesh<TriangleMesh>& mesh, typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd,
+                       Retriangulation retriangulation, Flattening_report<TriangleMesh>& report)
+{
+  std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4> corners;
+  corners.fill(boost::graph_traits<TriangleMesh>::null_vertex());
+  if(bool(report) && (bhd == boost::graph_traits<TriangleMesh>::null_halfedge() || !report.topology.is_disk()))
+    report.status = Status::WRONG_TOPOLOGY;
+  if(!bool(report))
+    return corners;
+  const std::uint32_t first = mesh.triangulation.next_on_border(mesh.index_of_halfedge(opposite(bhd, mesh.mesh())));
+  const Rectangle_corners found = select_rectangle_corners(mesh.triangulation, first, retriangulation);
+  report.status = found.status;
+  report.amount = found.amount;
+  name_elements(mesh, found.vertices, {}, {}, report);
+  if(is_success(found.status))
+    for(std::size_t k = 0; k < 4; ++k)
+      corners[k] = mesh.vertex(found.corners[3 - k]); // CGAL's border halfedges run the other way
+  return corners;
+}
+
+} // namespace internal
 
 /// \ingroup PkgConformalEquivalenceSolver
 ///
@@ -106,33 +143,14 @@ select_rectangle_corners(const TriangleMesh& tm,
                          typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd,
                          const NamedParameters& np = parameters::default_values())
 {
-  using parameters::get_parameter;
-  typedef boost::graph_traits<TriangleMesh> Graph_traits;
-  const bool is_null = bhd == Graph_traits::null_halfedge(); // what PMP::longest_border() returns for closed meshes
-  CGAL_precondition(is_null || is_border(bhd, tm));
-
-  std::array<typename Graph_traits::vertex_descriptor, 4> corners;
-  corners.fill(Graph_traits::null_vertex());
-
+  CGAL_precondition(bhd == boost::graph_traits<TriangleMesh>::null_halfedge() // what PMP::longest_border() returns for closed meshes
+                    || is_border(bhd, tm));
   const Imported_mesh<TriangleMesh> mesh = import_mesh(tm, np);
   Flattening_report<TriangleMesh> report = internal::import_report(mesh);
-  if(bool(report) && (is_null || !report.topology.is_disk()))
-    report.status = Status::WRONG_TOPOLOGY;
-  if(bool(report))
-  {
-    const Retriangulation retriangulation = parameters::choose_parameter(get_parameter(np, internal_np::conformal_retriangulation),
-                                                                         Retriangulation::WHEN_NEEDED);
-    const std::uint32_t first = mesh.triangulation.next_on_border(mesh.index_of_halfedge(opposite(bhd, tm)));
-    const internal::Rectangle_corners found = internal::select_rectangle_corners(mesh.triangulation, first, retriangulation);
-    report.status = found.status;
-    report.amount = found.amount;
-    internal::name_elements(mesh, found.vertices, {}, {}, report);
-    if(is_success(found.status))
-      for(int k = 0; k < 4; ++k)
-        corners[k] = mesh.vertex(found.corners[3 - k]); // CGAL's border halfedges run the other way
-  }
-  if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_report_t>::value)
-    get_parameter(np, internal_np::conformal_report).get() = report;
+  const Retriangulation retriangulation = parameters::choose_parameter(
+    parameters::get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::WHEN_NEEDED);
+  const auto corners = internal::find_rectangle_corners(mesh, bhd, retriangulation, report);
+  internal::write_if_given(np, internal_np::conformal_report, report);
   return corners;
 }
 

@@ -8,6 +8,7 @@
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/quasi_conformal_factor.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/boost/graph/iterator.h>
@@ -70,7 +71,7 @@ namespace internal {
 template <typename NamedParameters>
 constexpr bool has_edge_length_map()
 {
-  return !parameters::is_default_parameter<NamedParameters, internal_np::conformal_edge_length_t>::value;
+  return is_given<internal_np::conformal_edge_length_t, NamedParameters>;
 }
 
 // The halfedges h_0, h_1, h_2 of a face.  Vertex i is the target of h_i, where uv[h_i] belongs; opposite lies the
@@ -366,7 +367,7 @@ compute_conformal_distortion(const TriangleMesh& tm,
                              const NamedParameters& np = parameters::default_values())
 {
   constexpr bool u_is_given =
-    !parameters::is_default_parameter<NamedParameters, internal_np::conformal_u_t>::value;
+    internal::is_given<internal_np::conformal_u_t, NamedParameters>;
 
   Conformal_distortion<TriangleMesh> result;
   std::vector<internal::Face_distortion> distortions;

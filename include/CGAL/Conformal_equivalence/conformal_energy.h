@@ -56,7 +56,7 @@ NT energy_of_face(const Intrinsic_triangulation<Length>& t, std::uint32_t f, con
   NT u_sum(0);
   for(std::uint32_t k = 0; k < 3; ++k)
   {
-    const std::uint32_t h = 3 * f + k;
+    const std::uint32_t h = t.halfedge(f, k);
     lambda[k] = 2 * log(static_cast<NT>(t.halfedge_length(h))) + u[t.origin(h)] + u[t.target(h)];
     u_sum += u[t.origin(h)];
   }

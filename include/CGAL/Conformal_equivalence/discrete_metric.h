@@ -71,7 +71,7 @@ bool is_valid_metric(const Intrinsic_triangulation<NT>& t, std::vector<std::uint
   bool result = true;
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
   {
-    const NT &a = t.halfedge_length(3 * f), &b = t.halfedge_length(3 * f + 1), &c = t.halfedge_length(3 * f + 2);
+    const NT &a = t.halfedge_length(t.halfedge(f)), &b = t.halfedge_length(t.halfedge(f, 1)), &c = t.halfedge_length(t.halfedge(f, 2));
     if(internal::is_length(a) && internal::is_length(b) && internal::is_length(c) && internal::is_triangle(a, b, c))
       continue;
     result = false;

@@ -82,7 +82,6 @@ Refined_mesh_elements<RefinedMesh> make_refined_mesh(const Imported_mesh<Triangl
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
-  using parameters::is_default_parameter;
   const auto point_in = choose_parameter(get_parameter(np_in, internal_np::vertex_point), get(CGAL::vertex_point, mesh.mesh()));
   auto point_out = choose_parameter(get_parameter(np_out, internal_np::vertex_point), get(CGAL::vertex_point, out));
   CGAL_precondition(bool(refinement) && vertices(out).begin() == vertices(out).end());
@@ -94,12 +93,7 @@ Refined_mesh_elements<RefinedMesh> make_refined_mesh(const Imported_mesh<Triangl
     CGAL::clear(out);
     return Refined_mesh_elements<RefinedMesh>();
   }
-  internal::write_refined_corners(refinement, result, out, uv);
-  if constexpr(!is_default_parameter<NamedParametersOut, internal_np::conformal_weight_t>::value)
-    for(std::uint32_t v = 0; v < refinement.number_of_vertices(); ++v)
-      put(get_parameter(np_out, internal_np::conformal_weight), result.vertices[v], static_cast<double>(refinement.weights[v]));
-  if constexpr(!is_default_parameter<NamedParametersOut, internal_np::conformal_edge_is_seam_t>::value)
-    internal::write_refined_seam(refinement, result, out, get_parameter(np_out, internal_np::conformal_edge_is_seam));
+  internal::write_refined_maps(refinement, result, out, uv, np_out);
   return result;
 }
 

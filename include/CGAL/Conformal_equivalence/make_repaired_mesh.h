@@ -79,7 +79,7 @@ bool add_repaired_faces(const Intrinsic_triangulation<NT>& t, RepairedMesh& out,
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
   {
     const std::array<typename Traits::vertex_descriptor, 3> corners =
-      {{ result.vertices[t.origin(3 * f)], result.vertices[t.origin(3 * f + 1)], result.vertices[t.origin(3 * f + 2)] }};
+      {{ result.vertices[t.origin(t.halfedge(f))], result.vertices[t.origin(t.halfedge(f, 1))], result.vertices[t.origin(t.halfedge(f, 2))] }};
     const typename Traits::face_descriptor fd = CGAL::Euler::add_face(corners, out);
     if(fd == Traits::null_face())
       return false;

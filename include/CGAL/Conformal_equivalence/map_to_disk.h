@@ -17,6 +17,7 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Disk_mapping.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/make_refined_mesh.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
@@ -106,14 +107,13 @@ Flattening_report<TriangleMesh> map_to_disk(const TriangleMesh& tm,
 {
   static_assert(internal::Check_vertex_map<VertexUVMap, TriangleMesh>::value);
   static_assert(internal::Check_pack<internal::Parameters_of_map_to_disk, TriangleMesh, NamedParameters>::value);
-  constexpr bool is_refined = !parameters::is_default_parameter<NamedParameters, internal_np::conformal_common_refinement_t>::value;
+  constexpr bool is_refined = internal::is_given<internal_np::conformal_common_refinement_t, NamedParameters>;
   internal::Disk_mapping<TriangleMesh, NT> mapping(tm);
   mapping.run(np, is_refined, false);
   if(bool(mapping.report))
   {
     internal::write_disk(mapping, disk_map, np);
-    if constexpr(is_refined)
-      parameters::get_parameter(np, internal_np::conformal_common_refinement).get() = std::move(mapping.refinement);
+    internal::write_if_given(np, internal_np::conformal_common_refinement, std::move(mapping.refinement));
   }
   internal::write_report(mapping.report, np);
   return std::move(mapping.report);
@@ -156,9 +156,8 @@ Flattening_report<TriangleMesh> map_to_disk_refined(const TriangleMesh& tm,
     mapping.report.status = Status::NOT_REPRESENTABLE;
   if(bool(mapping.report))
     internal::write_weights(mapping.mesh, mapping.weights, np);
-  if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_common_refinement_t>::value)
-    if(bool(mapping.report))
-      parameters::get_parameter(np, internal_np::conformal_common_refinement).get() = std::move(mapping.refinement);
+  if(bool(mapping.report))
+    internal::write_if_given(np, internal_np::conformal_common_refinement, std::move(mapping.refinement));
   internal::write_report(mapping.report, np);
   return std::move(mapping.report);
 }

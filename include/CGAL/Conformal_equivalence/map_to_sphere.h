@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Sphere_mapping.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/write_refined_sphere.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
@@ -108,14 +109,13 @@ Flattening_report<TriangleMesh> map_to_sphere(const TriangleMesh& tm,
 {
   static_assert(internal::Check_vertex_map<VertexPointMap, TriangleMesh>::value);
   static_assert(internal::Check_pack<internal::Parameters_of_map_to_sphere, TriangleMesh, NamedParameters>::value);
-  constexpr bool is_refined = !parameters::is_default_parameter<NamedParameters, internal_np::conformal_spherical_refinement_t>::value;
+  constexpr bool is_refined = internal::is_given<internal_np::conformal_spherical_refinement_t, NamedParameters>;
   internal::Sphere_mapping<TriangleMesh, NT> mapping(tm);
   mapping.run(np, std::bool_constant<is_refined>());
   if(bool(mapping.report))
   {
     internal::write_sphere(mapping, sphere_map, np);
-    if constexpr(is_refined)
-      parameters::get_parameter(np, internal_np::conformal_spherical_refinement).get() = std::move(mapping.refinement);
+    internal::write_if_given(np, internal_np::conformal_spherical_refinement, std::move(mapping.refinement));
   }
   internal::write_report(mapping.report, np);
   return std::move(mapping.report);
@@ -177,9 +177,8 @@ Flattening_report<TriangleMesh> map_to_sphere_refined(const TriangleMesh& tm,
     mapping.report.status = Status::NOT_REPRESENTABLE;
   if(bool(mapping.report))
     internal::write_weights_of_sphere(mapping, np);
-  if constexpr(!parameters::is_default_parameter<NamedParameters, internal_np::conformal_spherical_refinement_t>::value)
-    if(bool(mapping.report))
-      parameters::get_parameter(np, internal_np::conformal_spherical_refinement).get() = std::move(mapping.refinement);
+  if(bool(mapping.report))
+    internal::write_if_given(np, internal_np::conformal_spherical_refinement, std::move(mapping.refinement));
   internal::write_report(mapping.report, np);
   return std::move(mapping.report);
 }

@@ -62,7 +62,7 @@ public:
   {
     NT mean(0), count(0);
     for(const Index f : faces_)
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+      for(const Index h : t_.halfedges(f))
         if(t_.edge_halfedge(t_.edge(h)) == h)
         {
           edges_.push_back(t_.edge(h));
@@ -95,7 +95,7 @@ private:
   {
     NT result(0);
     for(const Index f : faces_)
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+      for(const Index h : t_.halfedges(f))
       {
         const NT &c = t_.halfedge_length(h), &a = t_.halfedge_length(t_.next(h)), &b = t_.halfedge_length(t_.previous(h));
         result = (std::max)(result, missing_length(a, b, c));
@@ -159,7 +159,7 @@ Mollified_metric<NT> mollify(Intrinsic_triangulation<NT> t, double relative_slac
   const Surface_components pieces = connected_components(surface);
   std::vector<std::vector<std::uint32_t> > faces(pieces.components.size());
   for(std::uint32_t f = 0; f < surface.number_of_faces(); ++f)
-    faces[pieces.component_of_vertex[surface.origin(3 * f)]].push_back(f);
+    faces[pieces.component_of_vertex[surface.origin(surface.halfedge(f))]].push_back(f);
   for(std::vector<std::uint32_t>& piece : faces)
     result.added.push_back(internal::Mollification<NT>(surface, std::move(piece), relative_slack)());
   return result;

@@ -148,8 +148,8 @@ void judge_faces(const Intrinsic_triangulation<double>& input, const Common_refi
   {
     is_flipped[f] = 1;
     const std::uint32_t g = refinement.input_face[f];
-    if(is_degenerate_triangle(input.halfedge_length(3 * g), input.halfedge_length(3 * g + 1),
-                              input.halfedge_length(3 * g + 2)))
+    if(is_degenerate_triangle(input.halfedge_length(input.halfedge(g)), input.halfedge_length(input.halfedge(g, 1)),
+                              input.halfedge_length(input.halfedge(g, 2))))
       certificate.exempt_faces.push_back(g);
     else
       certificate.flipped_faces.push_back(f);

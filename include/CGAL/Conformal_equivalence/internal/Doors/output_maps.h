@@ -95,9 +95,12 @@ void write_corners(const Imported_mesh<TriangleMesh, NT>& mesh, const Layout<NT>
   }
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
   {
-    auto hd = mesh.halfedge(3 * f);
-    for(std::uint32_t h = 3 * f; h < 3 * f + 3; ++h, hd = next(hd, mesh.mesh()))
+    auto hd = mesh.halfedge(t.halfedge(f));
+    for(const std::uint32_t h : t.halfedges(f))
+    {
       put(uv, hd, point(h));
+      hd = next(hd, mesh.mesh());
+    }
   }
 }
 

@@ -57,7 +57,7 @@ public:
   void operator()(Index root)
   {
     Queue queue;
-    const Index h = 3 * root;
+    const Index h = t_.halfedge(root);
     const Complex east = {Wide(1), Wide(0)};
     place(origin_wedge(h), Complex{Wide(0), Wide(0)});
     place(wedges_.of_corner[h], Complex{metric_.wide_scaled_length(h), Wide(0)});

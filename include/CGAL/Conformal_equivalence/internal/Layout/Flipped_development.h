@@ -63,8 +63,9 @@ public:
   void operator()(Index root)
   {
     std::queue<std::pair<Index, Complex> > queue; // a halfedge, the origin of which is placed, and the frame of its face
-    place(origin_wedge(3 * root), Complex{Wide(0), Wide(0)});
-    queue.emplace(3 * root, unit(Complex{vectors_[3 * root].to_target.re, -vectors_[3 * root].to_target.im}));
+    const Index first = input_.halfedge(root);
+    place(origin_wedge(first), Complex{Wide(0), Wide(0)});
+    queue.emplace(first, unit(conj(vectors_[first].to_target)));
     is_laid_out[root] = 1;
     for(; !queue.empty(); queue.pop())
     {

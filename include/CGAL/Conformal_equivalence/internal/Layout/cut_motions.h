@@ -63,7 +63,7 @@ struct Pieces_of_components
     {
       std::uint32_t& number = number_in_component[piece_of_face[f]];
       if(number == t.null_index)
-        number = number_of_pieces[surface.component_of_vertex[t.origin(3 * f)]]++;
+        number = number_of_pieces[surface.component_of_vertex[t.origin(t.halfedge(f))]]++;
     }
   }
 };

@@ -140,10 +140,10 @@ template <typename NT>
 std::uint32_t reference_halfedge(const Intrinsic_triangulation<NT>& t, const Piece& piece)
 {
   for(std::uint32_t f : piece.faces)
-    for(std::uint32_t h = 3 * f; h < 3 * f + 3; ++h)
+    for(const std::uint32_t h : t.halfedges(f))
       if(t.is_border(h))
         return h;
-  return 3 * piece.faces.front();
+  return t.halfedge(piece.faces.front());
 }
 
 // A shape has a longest principal axis if its two second moments differ by this much, relative to their sum: less may be rounding, and

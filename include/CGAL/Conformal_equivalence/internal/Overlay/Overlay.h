@@ -71,7 +71,8 @@ public:
   {
     for(Index f = 0; f < t_.number_of_faces(); ++f)
     {
-      triangle_.cut({{ record_.crossings(t_.edge(3 * f)), record_.crossings(t_.edge(3 * f + 1)), record_.crossings(t_.edge(3 * f + 2)) }});
+      const auto crossings_of_side = [&](Index k) { return record_.crossings(t_.edge(t_.halfedge(f, k))); };
+      triangle_.cut({{ crossings_of_side(0), crossings_of_side(1), crossings_of_side(2) }});
       triangle_.for_each([&](const std::vector<Triangle_cells::Segment>& segments)
       {
         cell_.clear();
@@ -93,12 +94,12 @@ private:
   // The same for a place on the border of the triangle f.
   std::size_t crossing_at(Index f, std::size_t place) const
   {
-    return number_of_crossing(3 * f + Index(triangle_.side(place)), triangle_.position(place) - 1);
+    return number_of_crossing(t_.halfedge(f, Index(triangle_.side(place))), triangle_.position(place) - 1);
   }
 
   Overlay_corner corner(Index f, const Triangle_cells::Segment& segment) const
   {
-    const Index h = 3 * f + Index(triangle_.side(segment.from));
+    const Index h = t_.halfedge(f, Index(triangle_.side(segment.from)));
     Overlay_corner result;
     result.is_crossing = !triangle_.is_corner(segment.from);
     result.index = result.is_crossing ? Index(crossing_at(f, segment.from)) : h;
@@ -108,7 +109,7 @@ private:
       result.input_halfedge = input_halfedge(result.index, crossings[result.index].halfedge != h); // into the triangle
     else
     {
-      const Index g = 3 * f + Index(triangle_.side(segment.to));
+      const Index g = t_.halfedge(f, Index(triangle_.side(segment.to)));
       const std::size_t crossing = crossing_at(f, segment.to);
       result.input_halfedge = input_halfedge(crossing, crossings[crossing].halfedge == g); // out of it
     }

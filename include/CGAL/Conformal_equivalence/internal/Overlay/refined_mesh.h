@@ -11,6 +11,7 @@
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Refined_mesh_elements.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -118,6 +119,18 @@ void write_refined_seam(const Common_refinement<NT>& refinement, const Refined_m
     const bool is_seam = !CGAL::is_border(g, out) && (point(h) != point(prev(g, out)) || point(g) != point(prev(h, out)));
     put(seam, edge(h, out), is_seam);
   }
+}
+
+// Writes corners, and weights and seam if there are maps for them.
+template <typename NT, typename RefinedMesh, typename HalfedgeUVMap, typename NamedParameters>
+void write_refined_maps(const Common_refinement<NT>& refinement, const Refined_mesh_elements<RefinedMesh>& elements, RefinedMesh& out,
+                        HalfedgeUVMap uv, const NamedParameters& np)
+{
+  write_refined_corners(refinement, elements, out, uv);
+  for(std::uint32_t v = 0; v < refinement.number_of_vertices(); ++v)
+    put_if_given(np, internal_np::conformal_weight, elements.vertices[v], static_cast<double>(refinement.weights[v]));
+  if constexpr(is_given<internal_np::conformal_edge_is_seam_t, NamedParameters>)
+    write_refined_seam(refinement, elements, out, parameters::get_parameter(np, internal_np::conformal_edge_is_seam));
 }
 
 } // namespace internal

@@ -156,7 +156,7 @@ private:
     for(Index k = 0; k < 3; ++k)
     {
       using std::exp;
-      const Index h = 3 * f + k;
+      const Index h = t_.halfedge(f, k);
       l[k] = Wide(t_.halfedge_length(h));
       if(!metric.scale_factors.empty())
         l[k] = wide_length(t_, metric.scale_factors, h);
@@ -164,7 +164,7 @@ private:
         l[k] = l[k] * Wide(exp((metric.log_scale_factors[t_.origin(h)] + metric.log_scale_factors[t_.target(h)]) / 2));
     }
     const int k = longest_side(l[0], l[1], l[2]);
-    return {static_cast<double>(Wide(-excess(l[k], l[(k + 1) % 3], l[(k + 2) % 3]) / l[k])), 3 * f + Index(k)};
+    return {static_cast<double>(Wide(-excess(l[k], l[(k + 1) % 3], l[(k + 2) % 3]) / l[k])), t_.halfedge(f, Index(k))};
   }
 
   // ---- One edge
@@ -180,7 +180,7 @@ private:
 
   bool is_free_triangle(Index f) const
   {
-    const NT &a = t_.halfedge_length(3 * f), &b = t_.halfedge_length(3 * f + 1), &c = t_.halfedge_length(3 * f + 2);
+    const NT &a = t_.halfedge_length(t_.halfedge(f)), &b = t_.halfedge_length(t_.halfedge(f, 1)), &c = t_.halfedge_length(t_.halfedge(f, 2));
     const NT rounding = -8 * std::numeric_limits<NT>::epsilon() * (std::max)((std::max)(a, b), c);
     return !is_taken_[f] && excess(a, b, c) >= rounding && excess(b, c, a) >= rounding && excess(c, a, b) >= rounding;
   }

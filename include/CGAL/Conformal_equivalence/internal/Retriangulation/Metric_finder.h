@@ -344,11 +344,9 @@ private:
   static void tell_about_flips(Ideal_delaunay_energy<NT>& energy, double seconds_before, const Solver_options& options, Metric& result)
   {
     const Stopwatch stopwatch;
-    result.statistics.number_of_flips = result.flips.size();
+    tell_flips(options.retriangulation, result);
     result.statistics.number_of_filter_failures = energy.flipper().counts().filter_failures;
     result.statistics.number_of_exact_decisions = energy.flipper().counts().exact_decisions;
-    result.statistics.conformal_class = options.retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
-                                                                                           : Conformal_class::GIVEN_TRIANGULATION;
     if(is_success(result.status))
     {
       const Delaunay_verdict verdict = energy.flipper().verdict(result.scale_factors);

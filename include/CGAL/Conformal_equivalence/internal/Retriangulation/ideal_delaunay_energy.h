@@ -186,7 +186,7 @@ private:
       if(this->weights()[e] < -1e-12 && t_.is_flippable(e))
         result.push_back(e);
     for(Index f : this->broken_faces())
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+      for(const Index h : t_.halfedges(f))
         if(t_.is_flippable(t_.edge(h)))
           result.push_back(t_.edge(h));
     return result;

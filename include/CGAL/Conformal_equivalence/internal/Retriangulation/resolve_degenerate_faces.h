@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ namespace internal {
 template <typename NT>
 std::uint32_t longest_halfedge(const Intrinsic_triangulation<NT>& t, std::uint32_t f)
 {
-  const std::uint32_t h = 3 * f;
+  const std::uint32_t h = t.halfedge(f);
   return h + std::uint32_t(longest_side(t.halfedge_length(h), t.halfedge_length(h + 1), t.halfedge_length(h + 2)));
 }
 
@@ -94,14 +95,22 @@ std::vector<std::uint32_t> resolve_degenerate_faces(Intrinsic_triangulation<NT>&
   return flips;
 }
 
+// Tells a result that flips have led to how many there were, and to what surface it is conformally equivalent.
+template <typename Result>
+void tell_flips(Retriangulation retriangulation, Result& result)
+{
+  result.statistics.number_of_flips = result.flips.size();
+  result.statistics.conformal_class = retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
+                                                                                 : Conformal_class::GIVEN_TRIANGULATION;
+}
+
 // Tells a result, found on the triangulation that these flips have led to, that they came before all others.
 template <typename Result>
 void put_resolving_flips_first(const std::vector<std::uint32_t>& flips, Result& result)
 {
   result.flips.insert(result.flips.begin(), flips.begin(), flips.end());
-  result.statistics.number_of_flips = result.flips.size();
   result.statistics.number_of_resolving_flips = flips.size();
-  result.statistics.conformal_class = Conformal_class::GIVEN_TRIANGULATION;
+  tell_flips(Retriangulation::WHEN_NEEDED, result); // only then are faces resolved
 }
 
 // Takes those out of `faces` that have no area, and returns them.

@@ -175,10 +175,10 @@ private:
     Face face;
     for(Index k = 0; k < 3; ++k)
     {
-      const Index h = 3 * f + k;
+      const Index h = t_.halfedge(f, k);
       face.vertex[k] = t_.target(h);
       face.motion[k] = polygon_.motion_of_corner[h];
-      face.opposite[k] = corner_[3 * f + (k + 2) % 3] - corner_[3 * f + (k + 1) % 3];
+      face.opposite[k] = corner_[t_.previous(h)] - corner_[t_.next(h)];
       face.factor[k] = face.opposite[k] * rotation_of_motion_[face.motion[k]];
     }
     const Complex &x = face.opposite[0], &y = face.opposite[1];
@@ -192,7 +192,7 @@ private:
 
   bool hangs_on_data(Index f) const
   {
-    for(Index h = 3 * f; h < 3 * f + 3; ++h)
+    for(const Index h : t_.halfedges(f))
       if(polygon_.motion_of_corner[h] != 0 || number_[t_.target(h)] == t_.null_index)
         return true;
     return false;

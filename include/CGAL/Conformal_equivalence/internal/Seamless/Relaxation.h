@@ -45,7 +45,7 @@ public:
   {
     std::set<Index> reached;
     for(Index f : faces)
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+      for(const Index h : t.halfedges(f))
         reached.insert(t.target(h));
     for(int ring = 0; ring < rings; ++ring)
       for(Index v : std::vector<Index>(reached.begin(), reached.end()))

@@ -52,7 +52,7 @@ struct Mean_factor
 // Of the triangle of the mesh.
 inline Triangle_frame given_frame(const Intrinsic_triangulation<double>& t, std::uint32_t f)
 {
-  return frame_from_lengths({{t.halfedge_length(3 * f + 2), t.halfedge_length(3 * f), t.halfedge_length(3 * f + 1)}});
+  return frame_from_lengths({{t.halfedge_length(t.halfedge(f, 2)), t.halfedge_length(t.halfedge(f)), t.halfedge_length(t.halfedge(f, 1))}});
 }
 
 // Of the triangle of a flat layout, which is given by the corners at halfedges.

@@ -6,6 +6,7 @@
 
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Cell_verdict.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/disk_points.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/ideal_refinement.h>
@@ -35,7 +36,6 @@ class Disk_cells
 public:
   Common_refinement<NT> refinement;         // has the status
   std::vector<Light_vector<Wide> > vectors; // by vertex of the refinement
-  std::vector<Index> flipped, rounded;      // faces of the surface with parts that are not positive, or not any more when rounded
 
   // `whole`: what was flipped, the surface or its double
   Disk_cells(const Intrinsic_triangulation<NT>& surface, const Intrinsic_triangulation<NT>& whole, const Ideal_polyhedron<NT>& polyhedron);
@@ -47,17 +47,13 @@ private:
     std::vector<Index> suspects = refinement.flipped_faces;
     suspects.insert(suspects.end(), refinement.rounded_faces.begin(), refinement.rounded_faces.end());
     std::sort(suspects.begin(), suspects.end());
-    refinement.flipped_faces.clear();
-    refinement.rounded_faces.clear();
+    Cell_verdict verdict;
     for(Index f : suspects)
     {
-      const std::size_t c = refinement.first_corner[f];
-      const auto corner = [&](std::size_t k) { return wide[refinement.corner_vertex[c + k]]; };
-      const bool is_rounded = is_positive_in_disk(corner(0), corner(1), corner(2));
-      (is_rounded ? refinement.rounded_faces : refinement.flipped_faces).push_back(f);
-      (is_rounded ? rounded : flipped).push_back(refinement.input_face[f]);
+      const auto corner = [&](std::size_t k) { return wide[refinement.corner_vertex[refinement.first_corner[f] + k]]; };
+      verdict.judge(f, [] { return false; }, [&] { return is_positive_in_disk(corner(0), corner(1), corner(2)); });
     }
-    sort_and_make_unique(rounded);
+    put_verdict(std::move(verdict), refinement);
   }
 };
 

@@ -171,7 +171,7 @@ private:
     std::vector<Index> result;
     for(Index f = 0; f < t.number_of_faces(); ++f)
     {
-      const Index i = t.origin(3 * f), j = t.origin(3 * f + 1), k = t.origin(3 * f + 2);
+      const Index i = t.origin(t.halfedge(f)), j = t.origin(t.halfedge(f, 1)), k = t.origin(t.halfedge(f, 2));
       if(i >= n || j >= n || k >= n)
         continue;
       const Intrinsic_triangulation<NT>& surface = mesh.triangulation;
@@ -218,7 +218,7 @@ private:
     }
     refinement = std::move(cells.refinement);
     refined_vectors = std::move(cells.vectors);
-    tell_verdict(mesh, cells.flipped, cells.rounded, report);
+    tell_verdict(mesh, input_faces(refinement, refinement.flipped_faces), input_faces(refinement, refinement.rounded_faces), report);
     for(Index f : bent)
       report.bent_faces.push_back(mesh.face(f));
   }

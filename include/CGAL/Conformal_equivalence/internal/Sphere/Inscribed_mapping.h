@@ -23,6 +23,7 @@
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/best_apices.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
 #include <CGAL/Conformal_equivalence/projective_interpolation.h>
@@ -99,9 +100,7 @@ private:
     result.statistics.seconds.solve = stopwatch.seconds();
     result.statistics.seconds.discarded = discarded;
     result.statistics.number_of_discarded_iterations = discarded_iterations;
-    result.statistics.number_of_flips = result.flips.size();
-    result.statistics.conformal_class = retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
-                                                                                   : Conformal_class::GIVEN_TRIANGULATION;
+    tell_flips(retriangulation, result);
     return result;
   }
 
@@ -243,7 +242,7 @@ template <typename TriangleMesh, typename NT, typename NamedParameters>
 std::uint32_t given_apex(const Imported_mesh<TriangleMesh, NT>& mesh, const NamedParameters& np)
 {
   CGAL_USE(np);
-  if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::conformal_vertex_at_infinity_t>::value)
+  if constexpr(!is_given<internal_np::conformal_vertex_at_infinity_t, NamedParameters>)
     return mesh.triangulation.null_index;
   else
   {
@@ -295,13 +294,12 @@ template <typename TriangleMesh, typename NT, typename Wide, typename NamedParam
 void write_weights(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vector<Wide>& weights, const NamedParameters& np)
 {
   using parameters::get_parameter;
-  using parameters::is_default_parameter;
   using std::log;
   const Intrinsic_triangulation<NT>& t = mesh.triangulation;
   CGAL_USE(np);
   CGAL_USE(weights);
   CGAL_USE(t);
-  if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_u_t>::value)
+  if constexpr(is_given<internal_np::conformal_u_t, NamedParameters>)
   {
     const auto map = get_parameter(np, internal_np::conformal_u);
     typedef typename boost::property_traits<std::decay_t<decltype(map)> >::value_type Value;
@@ -309,7 +307,7 @@ void write_weights(const Imported_mesh<TriangleMesh, NT>& mesh, const std::vecto
       if(!t.is_isolated_vertex(v))
         put(map, mesh.vertex(v), static_cast<Value>(static_cast<NT>(-Wide(log(weights[v])))));
   }
-  if constexpr(!is_default_parameter<NamedParameters, internal_np::conformal_weight_t>::value)
+  if constexpr(is_given<internal_np::conformal_weight_t, NamedParameters>)
   {
     Wide largest(0);
     for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)

@@ -29,25 +29,26 @@ struct Punctured_surface
   {
     std::vector<Index> new_face(t.number_of_faces(), t.null_index);
     for(Index f = 0; f < t.number_of_faces(); ++f)
-      if(t.origin(3 * f) != apex && t.origin(3 * f + 1) != apex && t.origin(3 * f + 2) != apex)
+      if(t.origin(t.halfedge(f)) != apex && t.origin(t.halfedge(f, 1)) != apex && t.origin(t.halfedge(f, 2)) != apex)
       {
         new_face[f] = Index(original_face.size());
         original_face.push_back(f);
       }
     std::vector<Index> origin, twin;
     for(Index f : original_face)
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+      for(const Index h : t.halfedges(f))
       {
         const Index g = t.twin(h);
         origin.push_back(t.origin(h));
-        twin.push_back(g == t.null_index || new_face[g / 3] == t.null_index ? t.null_index : 3 * new_face[g / 3] + g % 3);
+        const bool is_new = g != t.null_index && new_face[t.face(g)] != t.null_index;
+        twin.push_back(is_new ? t.halfedge(new_face[t.face(g)], t.position_in_face(g)) : t.null_index);
       }
     triangulation = Intrinsic_triangulation<NT>(t.number_of_vertices(), std::move(origin), std::move(twin));
     original_edge.resize(triangulation.number_of_edges());
     for(Index e = 0; e < triangulation.number_of_edges(); ++e)
     {
       const Index h = triangulation.edge_halfedge(e);
-      original_edge[e] = t.edge(3 * original_face[h / 3] + h % 3);
+      original_edge[e] = t.edge(t.halfedge(original_face[t.face(h)], t.position_in_face(h)));
       triangulation.set_length(e, t.length(original_edge[e]));
     }
     for(Index v = 0; v < t.number_of_vertices(); ++v)

@@ -7,6 +7,7 @@
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Spherical_refinement.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Cell_verdict.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/ideal_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/light_cone.h>
@@ -40,7 +41,6 @@ class Sphere_cells
 public:
   Spherical_refinement<NT> refinement;      // its parts have the status
   std::vector<Light_vector<Wide> > vectors; // by vertex of the refinement
-  std::vector<Index> flipped, rounded;      // faces of the surface with parts that are not positive, or not any more when rounded
 
   Sphere_cells(const Intrinsic_triangulation<NT>& t, const Ideal_polyhedron<NT>& polyhedron);
 
@@ -83,27 +83,20 @@ private:
     }
   }
 
+  // By the orientations seen from the centre.
   void judge(const std::vector<Wide_point>& wide)
   {
     Common_refinement<NT>& parts = refinement.parts;
-    parts.flipped_faces.clear();
-    parts.rounded_faces.clear();
+    const std::vector<std::array<NT, 3> >& points = refinement.points;
+    Cell_verdict verdict;
     for(Index f = 0; f < parts.number_of_faces(); ++f)
     {
       const std::size_t c = parts.first_corner[f];
       const Index i = parts.corner_vertex[c], j = parts.corner_vertex[c + 1], k = parts.corner_vertex[c + 2];
-      if(!is_counterclockwise(wide[i], wide[j], wide[k]))
-      {
-        parts.flipped_faces.push_back(f);
-        flipped.push_back(parts.input_face[f]);
-      }
-      else if(!is_counterclockwise(refinement.points[i], refinement.points[j], refinement.points[k]))
-      {
-        parts.rounded_faces.push_back(f);
-        rounded.push_back(parts.input_face[f]);
-      }
+      const auto is_positive = [&] { return is_counterclockwise(wide[i], wide[j], wide[k]); };
+      verdict.judge(f, [&] { return is_positive() && is_counterclockwise(points[i], points[j], points[k]); }, is_positive);
     }
-    sort_and_make_unique(rounded);
+    put_verdict(std::move(verdict), parts);
   }
 };
 

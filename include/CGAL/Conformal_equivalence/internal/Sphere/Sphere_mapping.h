@@ -19,6 +19,7 @@
 #include <CGAL/Conformal_equivalence/internal/Sphere/moebius_weights.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/sphere_points.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/internal/solver_traits_of.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
@@ -104,7 +105,7 @@ private:
   std::vector<std::array<double, 3> > given_points(const NamedParameters& np) const
   {
     std::vector<std::array<double, 3> > result;
-    if constexpr(parameters::is_default_parameter<NamedParameters, internal_np::conformal_edge_length_t>::value)
+    if constexpr(!is_given<internal_np::conformal_edge_length_t, NamedParameters>)
     {
       const auto point = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                                       get(CGAL::vertex_point, mesh.mesh()));
@@ -152,7 +153,8 @@ private:
     }
     refinement = std::move(cells.refinement);
     refined_vectors = std::move(cells.vectors);
-    tell_verdict(mesh, cells.flipped, cells.rounded, report);
+    tell_verdict(mesh, input_faces(refinement.parts, refinement.parts.flipped_faces),
+                 input_faces(refinement.parts, refinement.parts.rounded_faces), report);
     for(Index f : bent)
       report.bent_faces.push_back(mesh.face(f));
   }

@@ -72,7 +72,7 @@ std::vector<std::uint32_t> flipped_faces(const Intrinsic_triangulation<NT>& t, c
 {
   std::vector<std::uint32_t> result;
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
-    if(!is_positive_in_disk(p[t.origin(3 * f)], p[t.origin(3 * f + 1)], p[t.origin(3 * f + 2)]))
+    if(!is_positive_in_disk(p[t.origin(t.halfedge(f))], p[t.origin(t.halfedge(f, 1))], p[t.origin(t.halfedge(f, 2))]))
       result.push_back(f);
   return result;
 }

@@ -18,7 +18,6 @@
 #include <CGAL/Conformal_equivalence/internal/Overlay/Overlay.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/overlay_layout.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -49,12 +48,6 @@ Conformal_metric<NT> metric_of_chords(const Ideal_polyhedron<NT>& polyhedron)
     result.log_scale_factors.push_back(static_cast<NT>(-Wide(log(weight))));
   }
   return result;
-}
-
-inline void sort_and_make_unique(std::vector<std::uint32_t>& indices)
-{
-  std::sort(indices.begin(), indices.end());
-  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
 }
 
 // The refinement without points of the plane, and the vectors of its vertices.

@@ -36,7 +36,7 @@ std::vector<std::uint32_t> flipped_faces(const Intrinsic_triangulation<NT>& t, c
 {
   std::vector<std::uint32_t> result;
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
-    if(!is_counterclockwise(p[t.origin(3 * f)], p[t.origin(3 * f + 1)], p[t.origin(3 * f + 2)]))
+    if(!is_counterclockwise(p[t.origin(t.halfedge(f))], p[t.origin(t.halfedge(f, 1))], p[t.origin(t.halfedge(f, 2))]))
       result.push_back(f);
   return result;
 }
@@ -46,7 +46,7 @@ double sum_of_solid_angles(const Intrinsic_triangulation<NT>& t, const std::vect
 {
   double result = 0;
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
-    result += solid_angle(p[t.origin(3 * f)], p[t.origin(3 * f + 1)], p[t.origin(3 * f + 2)]);
+    result += solid_angle(p[t.origin(t.halfedge(f))], p[t.origin(t.halfedge(f, 1))], p[t.origin(t.halfedge(f, 2))]);
   return result;
 }
 

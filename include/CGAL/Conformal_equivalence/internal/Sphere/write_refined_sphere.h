@@ -8,6 +8,7 @@
 #include <CGAL/Conformal_equivalence/Spherical_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/refined_mesh.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Sphere_mapping.h>
+#include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 
 #include <CGAL/assertions.h>
@@ -30,7 +31,6 @@ bool write_refined_sphere(const Sphere_mapping<TriangleMesh, double>& mapping, R
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
-  using parameters::is_default_parameter;
   typedef typename boost::property_traits<VertexPointMap>::value_type Point_3;
   const Spherical_refinement<double>& result = mapping.refinement;
   Refined_mesh_elements<RefinedMesh> elements;
@@ -45,12 +45,10 @@ bool write_refined_sphere(const Sphere_mapping<TriangleMesh, double>& mapping, R
   for(std::size_t v = 0; v < elements.vertices.size(); ++v)
   {
     put(sphere_map, elements.vertices[v], Point_3(result.points[v][0], result.points[v][1], result.points[v][2]));
-    if constexpr(!is_default_parameter<NamedParametersRefined, internal_np::conformal_weight_t>::value)
-      put(get_parameter(np_refined, internal_np::conformal_weight), elements.vertices[v], result.parts.weights[v]);
+    put_if_given(np_refined, internal_np::conformal_weight, elements.vertices[v], result.parts.weights[v]);
   }
-  if constexpr(!is_default_parameter<NamedParametersRefined, internal_np::conformal_input_face_t>::value)
-    for(std::uint32_t f = 0; f < result.parts.number_of_faces(); ++f)
-      put(get_parameter(np_refined, internal_np::conformal_input_face), elements.faces[f], mapping.mesh.face(result.parts.input_face[f]));
+  for(std::uint32_t f = 0; f < result.parts.number_of_faces(); ++f)
+    put_if_given(np_refined, internal_np::conformal_input_face, elements.faces[f], mapping.mesh.face(result.parts.input_face[f]));
   return true;
 }
 

@@ -40,7 +40,7 @@ std::vector<std::uint32_t> pieces_of_faces(const Intrinsic_triangulation<NT>& t,
     {
       const Index f = stack.back();
       stack.pop_back();
-      for(Index h = 3 * f; h < 3 * f + 3; ++h)
+      for(const Index h : t.halfedges(f))
       {
         if(t.is_border(h) || cut[t.edge(h)] || piece[t.face(t.twin(h))] != t.null_index)
           continue;
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> faces_from_outside(const Intrinsic_triangulation<NT>&
   const auto spread = [&]
   {
     for(; done < queue.size(); ++done)
-      for(Index h = 3 * queue[done]; h < 3 * queue[done] + 3; ++h)
+      for(const Index h : t.halfedges(queue[done]))
         if(!t.is_border(h))
           enter(t.face(t.twin(h)));
   };
@@ -95,7 +95,7 @@ std::vector<Piece> find_pieces(const Intrinsic_triangulation<NT>& t, const Edge_
   for(Index f = 0; f < t.number_of_faces(); ++f)
   {
     pieces[piece_of_face[f]].faces.push_back(f);
-    for(Index h = 3 * f; h < 3 * f + 3; ++h)
+    for(const Index h : t.halfedges(f))
       piece_of_wedge[wedges.of_corner[h]] = piece_of_face[f];
   }
   for(Index w = 0; w < wedges.number_of_wedges; ++w)
