@@ -821,6 +821,34 @@ BOOST_AUTO_TEST_CASE(the_numbers_of_vertices_do_not_matter)
   BOOST_TEST((expected == found));
 }
 
+// Whenever it is stopped: what has been found by then is a metric, or there is none.
+BOOST_AUTO_TEST_CASE(the_best_so_far_is_returned_when_the_visitor_stops)
+{
+  struct Impatient : public CE::Default_visitor
+  {
+    int left;
+    explicit Impatient(int n) : left(n) {}
+    bool go_further() { return left-- > 0; }
+  };
+  const Triangulation t = triangulation(arms(3));
+  int n_done = 0;
+  for(int n = 0; n < 200; ++n)
+  {
+    const auto placement = CE::place_cones(t, params::number_of_cones(std::size_t(5)).visitor(Impatient(n)));
+    if(bool(placement))
+    {
+      ++n_done;
+      break;
+    }
+    BOOST_TEST((placement.status == CE::Status::STOPPED_BY_VISITOR));
+    if(!bool(placement.metric) || placement.metric.log_scale_factors.empty())
+      continue;
+    BOOST_TEST(placement.cones.size() == 5);
+    BOOST_TEST(placement.maximum_log_scale_factor == largest(placement.metric.log_scale_factors));
+  }
+  BOOST_TEST(n_done == 1);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused)
 {
   using CE::Status;

@@ -59,12 +59,14 @@ po::options_description visible_options()
     ("cones", po::value<std::string>(),
        "FILE: cones inside the surface, lines 'vertex-index [angle in degrees | free]'; at a free cone, or where nothing "
        "follows the vertex, u = 0 and the angle is found. Closed surfaces need cones, except for tori\n"
-       "auto[=N]: N cones place themselves, or as many as it takes for --max-scale, --max-area or --max-rms (a file of such a name is given as ./auto); "
-       "their angles are chosen with their places. On each component, and on one with fewer than N vertices inside as many as it has, unless all are such")
+       "auto[=N]: N cones place themselves, or as many as it takes for --max-scale, --max-area or --max-rms (a file of such a name is given as "
+       "./auto); their angles are chosen with their places. On each component, and on one with fewer than N vertices inside as many as it has, "
+       "unless all are such")
     ("max-scale", po::value<std::string>(), "U: with --cones auto, cones are placed until |u| is at most U everywhere")
     ("max-area", po::value<std::string>(), "A: with --cones auto, cones are placed until no triangle is scaled by more than the factor A, "
        "relative to the mean of the areas")
-    ("max-rms", po::value<std::string>(), "E: with --cones auto, cones are placed until the area-weighted root mean square of u, less its mean, is at most E")
+    ("max-rms", po::value<std::string>(), "E: with --cones auto, cones are placed until the area-weighted root mean square of u, less its mean, "
+       "is at most E")
     ("cone-measure", po::value<std::string>(), "max | rms | area: what --cones auto makes small: the largest |u|, the root mean square of u, or the "
        "largest factor between areas; by default what is bounded, or max")
     ("quantize", po::value<std::string>(), "[DEGREES]: the angles of cones are multiples of this one, 360 / n (90 if none "
@@ -298,7 +300,8 @@ void parse_placement(const po::variables_map& values, Options& options)
   if(is_given(values, "cone-measure"))
     options.cone_measure = parse_cone_measure(values["cone-measure"].as<std::string>());
   if(cones == "auto" && ! is_given(values, "max-scale") && ! is_given(values, "max-area") && ! is_given(values, "max-rms"))
-    throw Usage_error("--cones auto needs a number (--cones auto=N), or a bound (--max-scale U, --max-area A or --max-rms E); a file of this name: ./auto");
+    throw Usage_error("--cones auto needs a number (--cones auto=N), or a bound (--max-scale U, --max-area A or --max-rms E); "
+                      "a file of this name: ./auto");
   for(const std::string& boundary : values.count("boundary") ? values["boundary"].as<std::vector<std::string> >() : std::vector<std::string>())
     if(boundary != "natural")
       throw Usage_error(text("--cones ", cones, " and --boundary ", boundary, " exclude each other: cones are placed for natural borders"));

@@ -53,7 +53,9 @@ struct Cone_placement
   std::size_t number_of_moves = 0;         ///< of single cones to vertices nearby that made it better
   std::size_t number_of_solves = 0;        ///< linear systems solved with the one factor
 
-  Status status = Status::OK;              ///< whether the cones could be placed, or why not
+  /// whether the cones could be placed, or why not. With `BOUND_NOT_MET`, and `STOPPED_BY_VISITOR` where `metric` is a success, the rest is the best
+  /// that was found
+  Status status = Status::OK;
   double amount = 0;                       ///< see `Status`
 
   /// is `true` iff there is a placement that is as asked for.

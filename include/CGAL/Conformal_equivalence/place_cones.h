@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 /// \file place_cones.h
-/// Cones that place themselves (section 5.1 of Springborn, Schroeder and Pinkall, 2008), so that the scale is distorted little: their places and angles
-/// are chosen together; or only the places, and u = 0 there. Their angles may be rounded to multiples of 2 pi / n (section 6), as textures and
+/// Cones that place themselves (section 5.1 of Springborn, Schroeder and Pinkall, 2008), so that the scale is distorted little: their places and
+/// angles are chosen together; or only the places, and u = 0 there. Their angles may be rounded to multiples of 2 pi / n (section 6), as textures and
 /// meshes of quadrangles ask for.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_PLACE_CONES_H
@@ -127,16 +127,16 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///
 /// places cones on a mesh, so that the flat metric with these cones distorts the scale less: what `cone_measure` says is to be small.
 ///
-/// The places and the angles are unknowns. To first order u is a linear function of the curvatures of the cones, with the columns of the inverse of the
-/// Laplacian for its coefficients, which is exact for smooth surfaces. For given places the curvatures with the least root mean square of u
-/// solve a linear system with as many unknowns as there are cones; those with nearly the least largest |u|, a few dozen of them, by p-norms of growing
-/// p. The derivative by a curvature anywhere on the surface says where another cone helps most, and where to move those that are there (in the spirit
-/// of Soliman, Slepcev and Crane, "Optimal Cone Singularities for Conformal Flattening", 2018). When this gains no more, the metric with these
-/// cones is solved for. Where it is worse than foreseen the Laplacian is made anew there, and the cones are moved again. What is returned is the
-/// best metric that was solved for. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
+/// The places and the angles are unknowns. To first order u is a linear function of the curvatures of the cones, with the columns of the inverse
+/// of the Laplacian for its coefficients, which is exact for smooth surfaces. For given places the curvatures with the least root mean square of u
+/// solve a linear system with as many unknowns as there are cones; those with nearly the least largest |u|, a few dozen of them, by p-norms of
+/// growing p. The derivative by a curvature anywhere on the surface says where another cone helps most, and where to move those that are there (in
+/// the spirit of Soliman, Slepcev and Crane, "Optimal Cone Singularities for Conformal Flattening", 2018). When this gains no more, the metric
+/// with these cones is solved for. Where it is worse than foreseen the Laplacian is made anew there, and the cones are moved again. What is
+/// returned is the best metric that was solved for. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
 ///
-/// With `Cone_angles::ZERO_U`, or an `angle_quantum`, or `Cone_measure::DIRICHLET_ENERGY`, or where there is no such metric (because edges must not be
-/// flipped, for example), cones have u = 0:
+/// With `Cone_angles::ZERO_U`, or an `angle_quantum`, or `Cone_measure::DIRICHLET_ENERGY`, or where there is no such metric (because edges must
+/// not be flipped, for example), cones have u = 0:
 ///
 ///  - *Greedily*: the vertex with the largest |u| becomes a free cone (u = 0, any angle), one after the other. On borders u = 0. A closed surface of
 ///    a genus other than 1 begins with its curvature spread equally over the vertices, a sphere until it has three cones.
@@ -172,7 +172,9 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{maximum_area_distortion}
-///     \cgalParamDescription{the bound on the factor by which areas are scaled relative to the mean: on the largest max(a, 1 / a) of all faces, a = (scaled area / area) / (total scaled area / total area); faces without area do not count. Where edges were flipped, a is that of vertices, with e^{2u} for the first quotient}
+///     \cgalParamDescription{the bound on the factor by which areas are scaled relative to the mean: on the largest max(a, 1 / a) of all faces, a
+///     = (scaled area / area) / (total scaled area / total area); faces without area do not count. Where edges were flipped, a is that of
+///     vertices, with e^{2u} for the first quotient}
 ///     \cgalParamType{`double`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
@@ -220,9 +222,10 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 /// \cgalNamedParamsEnd
 ///
 /// \return the report, with the cones. Maps are written iff it is a success, or `BOUND_NOT_MET`: then with the best placement found, `amount` is its
-///         largest |u| if that is too large, else its area distortion if that is, else its root mean square of u. Statuses: those of `import_mesh()`; `WRONG_TOPOLOGY` (several components);
-///         `MISSING_CONDITION` (neither number nor bounds; or fewer than three cones on a sphere); `TOO_MANY_CONES` (more than vertices);
-///         `ANGLE_OUT_OF_RANGE` (the quantum is not 2 pi / n); `NOT_QUANTIZABLE`; those of `Conformal_metric_solver::solve()`.
+///         largest |u| if that is too large, else its area distortion if that is, else its root mean square of u. Statuses: those of
+///         `import_mesh()`; `WRONG_TOPOLOGY` (several components); `MISSING_CONDITION` (neither number nor bounds; or fewer than three cones on a
+///         sphere); `TOO_MANY_CONES` (more than vertices); `ANGLE_OUT_OF_RANGE` (the quantum is not 2 pi / n); `NOT_QUANTIZABLE`; those of
+///         `Conformal_metric_solver::solve()`.
 ///
 /// Time: two solutions with the one factor for each cone that is put, and one for each that is moved; for n vertices and k cones,
 /// O(n k^2) for each change of the curvatures. Memory O(n) for each place where a cone has been, up to 240 megabytes.

@@ -11,6 +11,8 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_bound.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_fit.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_model.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_options.h>
@@ -46,8 +48,8 @@ class Cone_chooser
 public:
   // Keeps references.
   Cone_chooser(const Triangulation& t, const Surface_components::Component& component, const Cone_options& options,
-               const Factorization_maker& make_factorization)
-    : t_(t), options_(options), make_factorization_(make_factorization), euler_characteristic_(double(component.euler_characteristic())),
+               const Factorization_maker& make_factorization, const Any_visitor& visitor = Any_visitor())
+    : t_(t), options_(options), make_factorization_(make_factorization), visitor_(visitor), euler_characteristic_(double(component.euler_characteristic())),
       is_closed_(component.number_of_borders == 0), area_(vertex_areas(t)), width_(std::exp(log_sum(log_areas(t)) / 2))
   {}
 
@@ -92,7 +94,7 @@ public:
       most = (std::min)(most, options_.number_of_cones);
     fit_->set_exponent(2);
     fit_->fit(s);
-    for(std::size_t next_look = 0; s.cones.size() < most; )
+    for(std::size_t next_look = 0; s.cones.size() < most && visitor_.go_further(); )
     {
       if(s.cones.size() >= next_look && options_.has_bound() && !fit_->are_too_few(s.cones.size()))
       {
@@ -140,7 +142,16 @@ public:
   // Makes the curvatures multiples of 2 pi / n, and moves the cones with these. Returns whether there are such curvatures.
   bool quantize(Curved_cones& s, long n)
   {
-    return quantized(n).quantize(s, (std::max)(s.cones.size(), (std::min)(options_.number_of_cones, places().size())));
+    const std::size_t most = (std::max)(s.cones.size(), (std::min)(options_.number_of_cones, places().size()));
+    Curved_cones other = s; // where the mean is small may be a better place to begin
+    if(!quantized(n).quantize(s, most))
+      return false;
+    if(options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U)
+      return true;
+    improve_mean(other, false);
+    if(quantized(n).quantize(other, most) && measure(other) < measure(s))
+      s = std::move(other);
+    return true;
   }
 
   // The same with multiples already.
@@ -169,42 +180,8 @@ public:
     return u;
   }
 
-  // No cones the sizes of whose curvatures sum up to no more than M, that of `s`, have a root mean square of u below this, to first order. For any u
-  // of that kind, with the weights W and p = G W u, other curvatures k' make u', and, as W is positive semidefinite,
-  //
-  //     |u'| |u| >= u' W u = flat W u + sum of k' p >= flat W u + level (sum of k') - max |p - level| M
-  //
-  // for any level, as the sum of k' is what it is on closed surfaces; on others level = 0. The best u for this is the least one of all with M, wherever
-  // and however many their cones are: it is approached by conditional gradients (M. Frank, P. Wolfe, 1956).
-  double lower_bound(const Curved_cones& s)
-  {
-    Cone_fit<NT> fit(*model_, area_, true);
-    Curved_cones r = s;
-    fit.apply(r);
-    const double size = s.curvatures.cwiseAbs().sum(), total = is_closed_ ? model_->total_curvature() : 0;
-    const int most_steps = 24;
-    double result = 0;
-    for(int i = 0; i < most_steps && size > 0; ++i)
-    {
-      const Eigen::VectorXd load = area_.cwiseProduct(r.u), p = model_->response(load);
-      const std::pair<Index, Index> places = extremes(p);
-      const double level = is_closed_ ? (p[places.first] + p[places.second]) / 2 : 0, square = load.dot(r.u),
-                   reach = (std::max)(p[places.second] - level, level - p[places.first]);
-      if(!(square > 0))
-        break;
-      result = (std::max)(result, (load.dot(model_->flat()) + level * total - reach * size) / std::sqrt(square));
-      const double least = is_closed_ ? (size + total) / 2 : reach > p[places.second] ? size : 0, // the curvature at the lowest place
-                   most = is_closed_ ? (size - total) / 2 : size - least;
-      Eigen::VectorXd d = model_->flat() + least * *model_->column(places.first) - most * *model_->column(places.second);
-      d.array() -= area_.dot(d);
-      d -= r.u;
-      const double step = -load.dot(d) / area_.dot(d.cwiseAbs2());
-      if(!(step > 0))
-        break;
-      r.u += (std::min)(step, 1.) * d;
-    }
-    return result;
-  }
+  // No cones the sizes of whose curvatures sum up to no more than those of `s` have a root mean square of u below this, to first order.
+  double lower_bound(const Curved_cones& s) { return Cone_bound<NT>(*model_, area_)(s); }
 
 private:
   static constexpr int largest_exponent = 128; // a million vertices: n^{1/128} = 1.11, and far less where |u| is nearly equal at many
@@ -278,7 +255,7 @@ private:
   {
     Curved_cones best;
     double least = std::numeric_limits<double>::infinity();
-    for(int p = thoroughly ? 4 : 16; p <= largest_exponent; p *= 2)
+    for(int p = thoroughly ? 4 : 16; p <= largest_exponent && visitor_.go_further(); p *= 2)
     {
       fit_->set_exponent(p);
       fit_->fit(s);
@@ -294,13 +271,6 @@ private:
     }
     if(!best.cones.empty())
       s = std::move(best);
-  }
-
-  // The places where p is least and largest.
-  std::pair<Index, Index> extremes(const Eigen::VectorXd& p) const
-  {
-    const auto extremes = std::minmax_element(places().begin(), places().end(), [&](Index v, Index w) { return p[v] < p[w]; });
-    return std::make_pair(*extremes.first, *extremes.second);
   }
 
   // Is it worth while to look?
@@ -331,6 +301,7 @@ private:
   const Triangulation& t_;
   const Cone_options options_;
   const Factorization_maker make_factorization_;
+  const Any_visitor visitor_; // may end every search: what has been found counts
   const double euler_characteristic_;
   const bool is_closed_;
   const Eigen::VectorXd area_; // by vertex, of one whole

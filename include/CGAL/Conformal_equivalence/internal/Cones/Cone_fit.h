@@ -257,7 +257,10 @@ private:
       Eigen::VectorXd wx = w.cwiseProduct(*x.columns[std::size_t(i)]);
       add_more(x, std::size_t(i), w, wx);
       for(Eigen::Index j = 0; j <= i; ++j)
-        k(i, j) = k(j, i) = wx.dot(*x.columns[std::size_t(j)]) + (std::size_t(j) < x.cones.size() ? wx[x.cones[std::size_t(j)]] * x.more[std::size_t(j)] : 0);
+      {
+        const std::size_t column = std::size_t(j);
+        k(i, j) = k(j, i) = wx.dot(*x.columns[column]) + (column < x.cones.size() ? wx[x.cones[column]] * x.more[column] : 0);
+      }
       if(has_shift_)
         k(i, n) = k(n, i) = -wx.sum();
       b[i] = -wx.dot(x.rest);

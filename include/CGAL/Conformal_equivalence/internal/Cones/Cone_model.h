@@ -3,8 +3,8 @@
 
 // What cones do to u, to first order.
 //
-// Curvature K (2 pi less the angle sum) changes by A du, A the Laplacian of the cotangents (Edge_graph.h). So the metric with the curvatures k_c at the
-// cones c, and none elsewhere, has
+// Curvature K (2 pi less the angle sum) changes by A du, A the Laplacian of the cotangents (Edge_graph.h). So the metric with the curvatures k_c
+// at the cones c, and none elsewhere, has
 //
 //     u = u_flat + sum of k_c G_c,   G_c = A^{-1} e_c,   u_flat = u_0 - A^{-1} K(u_0).
 //
@@ -12,9 +12,9 @@
 // approximation. It is made on the Delaunay triangulation, whose weights are not negative. One factor does for all places and all angles; the columns
 // G_c are kept.
 //
-// At a vertex where curvature changes by much, a cone above all, u is not linear in it, while around it hardly anything else changes. A fan of m equal
-// triangles with the angle a at its apex, whose rim stays as it is, has u = -2 log sin(a / 2) + constant at its apex. What that differs from its
-// tangent at the first angle is added there: the *excess*.
+// At a vertex where curvature changes by much, a cone above all, u is not linear in it, while around it hardly anything else changes. A fan of m
+// equal triangles with the angle a at its apex, whose rim stays as it is, has u = -2 log sin(a / 2) + constant at its apex. What that differs from
+// its tangent at the first angle is added there: the *excess*.
 //
 // Where u is given on a border, A is restricted to the vertices inside. On a closed surface A has the constants for its kernel: one vertex is
 // grounded, u is determined up to a constant, and is right if the curvatures sum up to 2 pi times the Euler characteristic.

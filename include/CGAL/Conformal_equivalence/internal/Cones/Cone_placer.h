@@ -1,10 +1,10 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Cones that place themselves. Their angles are chosen with their places (Cone_chooser.h); or they have u = 0, and are placed greedily, then all of them
-// concurrently, then one after the other (section 5.1 of Springborn, Schroeder and Pinkall, 2008); with angles that are rounded to multiples of
-// 2 pi / n (section 6), if that is wanted. What is tried is compared to first order (Cone_model.h, Cone_search.h); the metric with the cones
-// that were found is solved for, and decides.
+// Cones that place themselves. Their angles are chosen with their places (Cone_chooser.h); or they have u = 0, and are placed greedily, then all
+// of them concurrently, then one after the other (section 5.1 of Springborn, Schroeder and Pinkall, 2008); with angles that are rounded to
+// multiples of 2 pi / n (section 6), if that is wanted. What is tried is compared to first order (Cone_model.h, Cone_search.h); the metric with
+// the cones that were found is solved for, and decides.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
@@ -276,21 +276,46 @@ private:
   // Places and angles together. Returns whether there is a metric with these; if there is none, cones with u = 0 may have one.
   bool choose()
   {
-    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_);
+    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, solver_options_.visitor);
     if(!chooser.begin())
       return false;
     Curved_cones s;
     if(options_.has_bound() && chooser.without_cones(s) && conclude(chooser, s, 0) && !misses_a_bound())
       return true;
+    if(is_stopped())
+      return true;
     s = chooser.placed(most_cones_for_bound);
+    if(!solver_options_.visitor.go_further())
+    {
+      refuse(Status::STOPPED_BY_VISITOR);
+      return true;
+    }
     if(!conclude_and_refine(chooser, s))
       return false;
     for(int round = 0; round < most_additions && is_bound_missed() && s.cones.size() < most_cones_for_bound && chooser.add(s); ++round)
-      conclude_and_refine(chooser, s);
-    if(options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U)
+    {
+      const Cone_placement<NT> last = result_;
+      if(!conclude_and_refine(chooser, s) || is_stopped())
+      {
+        keep(last);
+        break;
+      }
+    }
+    if(options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U && result_.status == Status::OK && !is_stopped())
       result_.root_mean_square_bound = chooser.lower_bound(s);
     result_.number_of_solves = chooser.number_of_solves();
-    return is_success(result_.metric.status) || result_.status == Status::NOT_QUANTIZABLE;
+    return is_success(result_.metric.status) || result_.status == Status::NOT_QUANTIZABLE || is_stopped();
+  }
+
+  bool is_stopped() const { return result_.metric.status == Status::STOPPED_BY_VISITOR; }
+
+  // What was found last is not better, or was not found: the one before is the result.
+  void keep(const Cone_placement<NT>& last)
+  {
+    const bool was_stopped = is_stopped();
+    result_ = last;
+    if(was_stopped)
+      refuse(Status::STOPPED_BY_VISITOR);
   }
 
   // The metric with the cones of `s`, rounded if that is asked for. Returns whether there is one, or it is known why not.
@@ -306,7 +331,7 @@ private:
     }
     Curved_cones& concluded = n > 0 ? rounded : s;
     if(!conclude(chooser, concluded, n))
-      return false;
+      return is_stopped();
     refine(chooser, concluded, n);
     return true;
   }
@@ -327,10 +352,7 @@ private:
       else
         chooser.improve(next, false);
       if(!conclude(chooser, next, n) || !(measured() < before))
-      {
-        result_ = last;
-        return;
-      }
+        return keep(last);
       s = std::move(next);
       if(!(measured() < 0.99 * before))
         return;

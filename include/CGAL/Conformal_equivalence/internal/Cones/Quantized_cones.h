@@ -5,11 +5,11 @@
 //
 //     |u|^2 = |u(k)|^2 + (q m - k)^T M (q m - k)
 //
-// for the integers m, with the best curvatures k and the Gram matrix M of the columns (Cone_fit.h): the integers wanted are the coordinates of a closest
-// lattice vector, on a closed surface in the sublattice of those with the right sum. For larger p this holds to second order, so that the
+// for the integers m, with the best curvatures k and the Gram matrix M of the columns (Cone_fit.h): the integers wanted are the coordinates of a
+// closest lattice vector, on a closed surface in the sublattice of those with the right sum. For larger p this holds to second order, so that the
 // closest vectors are candidates, and so are those of k rounded one by one; the measure decides. Then the cones move with these curvatures, and
-// integers are found anew; where cones have come to nothing, others are born where the dual potential is extreme (Sparse_cones.h), on closed surfaces in
-// pairs.
+// integers are found anew; where cones have come to nothing, others are born where the dual potential is extreme (Sparse_cones.h), on closed
+// surfaces in pairs.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_QUANTIZED_CONES_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_QUANTIZED_CONES_H

@@ -7,8 +7,9 @@
 // potential*. At the best curvatures it has the same value at all cones (0 if their sum is free). So it tells
 //
 //  - where another cone gains most: where the potential differs most from that value;
-//  - where to move a cone of curvature k: downhill in k p. How far, a quadratic term tells: a cone that moves by d changes u like a dipole, d / (2 pi r)
-//    at the distance r, which adds the mean weight per area times k^2 d^2 / (4 pi) log(R / d), about (d in widths of the surface); the factor is learnt on the way.
+//  - where to move a cone of curvature k: downhill in k p. How far, a quadratic term tells: a cone that moves by d changes u like a dipole, d / (2
+//    pi r) at the distance r, which adds the mean weight per area times k^2 d^2 / (4 pi) log(R / d), about (d in widths of the surface); the
+//    factor is learnt on the way.
 //
 // What the potential foresees is judged by the best curvatures at the new places. So a round costs one solution with the factor for the potential,
 // and one for each cone that moves.
