@@ -274,14 +274,15 @@ unsigned int parse_quantum(const std::string& word)
   return static_cast<unsigned int>(std::round(360 / degrees));
 }
 
-CE::Cone_measure parse_cone_measure(const std::string& word)
+CGAL::Conformal_equivalence::Cone_measure parse_cone_measure(const std::string& word)
 {
+  typedef CGAL::Conformal_equivalence::Cone_measure Measure;
   if(word == "max")
-    return CE::Cone_measure::MAXIMUM_U;
+    return Measure::MAXIMUM_U;
   if(word == "rms")
-    return CE::Cone_measure::ROOT_MEAN_SQUARE_U;
+    return Measure::ROOT_MEAN_SQUARE_U;
   if(word == "area")
-    return CE::Cone_measure::AREA_DISTORTION;
+    return Measure::AREA_DISTORTION;
   throw Usage_error("--cone-measure takes max, rms or area, not '" + word + "'");
 }
 
