@@ -135,8 +135,11 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 /// with these cones is solved for. Where it is worse than foreseen the Laplacian is made anew there, and the cones are moved again. What is
 /// returned is the best metric that was solved for. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
 ///
-/// With `Cone_angles::ZERO_U`, or an `angle_quantum`, or `Cone_measure::DIRICHLET_ENERGY`, or where there is no such metric (because edges must
-/// not be flipped, for example), cones have u = 0:
+/// With an `angle_quantum` and `Cone_measure::ROOT_MEAN_SQUARE_U` the curvatures are multiples of it, those of a closest vector in the lattice
+/// with the Gram matrix of the columns; then the cones move with these, and multiples are chosen anew.
+///
+/// With `Cone_angles::ZERO_U`, or an `angle_quantum` and any other measure, or `Cone_measure::DIRICHLET_ENERGY`, or where there is no such metric
+/// (because edges must not be flipped, for example), cones have u = 0:
 ///
 ///  - *Greedily*: the vertex with the largest |u| becomes a free cone (u = 0, any angle), one after the other. On borders u = 0. A closed surface of
 ///    a genus other than 1 begins with its curvature spread equally over the vertices, a sphere until it has three cones.

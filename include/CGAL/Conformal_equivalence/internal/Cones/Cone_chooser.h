@@ -49,7 +49,8 @@ public:
   // Keeps references.
   Cone_chooser(const Triangulation& t, const Surface_components::Component& component, const Cone_options& options,
                const Factorization_maker& make_factorization, const Any_visitor& visitor = Any_visitor())
-    : t_(t), options_(options), make_factorization_(make_factorization), visitor_(visitor), euler_characteristic_(double(component.euler_characteristic())),
+    : t_(t), options_(options), make_factorization_(make_factorization), visitor_(visitor),
+      euler_characteristic_(double(component.euler_characteristic())),
       is_closed_(component.number_of_borders == 0), area_(vertex_areas(t)), width_(std::exp(log_sum(log_areas(t)) / 2))
   {}
 
@@ -142,16 +143,7 @@ public:
   // Makes the curvatures multiples of 2 pi / n, and moves the cones with these. Returns whether there are such curvatures.
   bool quantize(Curved_cones& s, long n)
   {
-    const std::size_t most = (std::max)(s.cones.size(), (std::min)(options_.number_of_cones, places().size()));
-    Curved_cones other = s; // where the mean is small may be a better place to begin
-    if(!quantized(n).quantize(s, most))
-      return false;
-    if(options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U)
-      return true;
-    improve_mean(other, false);
-    if(quantized(n).quantize(other, most) && measure(other) < measure(s))
-      s = std::move(other);
-    return true;
+    return quantized(n).quantize(s, (std::max)(s.cones.size(), (std::min)(options_.number_of_cones, places().size())));
   }
 
   // The same with multiples already.
@@ -184,6 +176,7 @@ public:
   double lower_bound(const Curved_cones& s) { return Cone_bound<NT>(*model_, area_)(s); }
 
 private:
+  static constexpr std::size_t most_vertices_of_long_search = 20000; // where a solution costs little
   static constexpr int largest_exponent = 128; // a million vertices: n^{1/128} = 1.11, and far less where |u| is nearly equal at many
 
   bool make_model(Triangulation t, Vertex_vector u)
@@ -233,13 +226,15 @@ private:
   void improve_maximum(Curved_cones& s, bool thoroughly)
   {
     Curved_cones other = s;
+    const bool is_small = places().size() < most_vertices_of_long_search;
     if(thoroughly)
     {
       fit_->set_exponent(2);
       fit_->fit(s);
       search_->slide(s, 10);
       other = s;
-      improve_mean(other, true);
+      if(is_small)
+        improve_mean(other, true);
     }
     const bool are_different = other.cones != s.cones;
     approach_maximum(s, thoroughly);
@@ -255,13 +250,14 @@ private:
   {
     Curved_cones best;
     double least = std::numeric_limits<double>::infinity();
-    for(int p = thoroughly ? 4 : 16; p <= largest_exponent && visitor_.go_further(); p *= 2)
+    const bool is_small = places().size() < most_vertices_of_long_search;
+    for(int p = !thoroughly ? 16 : is_small ? 4 : 8; p <= largest_exponent && visitor_.go_further(); p *= is_small ? 2 : 4)
     {
       fit_->set_exponent(p);
       fit_->fit(s);
-      search_->slide(s, 6);
+      search_->slide(s, is_small ? 6 : 3);
       if(thoroughly && p == 8)
-        search_->exchange(s, 3);
+        search_->exchange(s, is_small ? 3 : 1);
       const double now = measure(s);
       if(now < least)
       {

@@ -270,7 +270,9 @@ private:
 
   bool are_angles_chosen() const
   {
-    return options_.angles == Cone_angles::CHOSEN && !(options_.angle_quantum > 0) && options_.measure != Cone_measure::DIRICHLET_ENERGY;
+    const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U; // to which closest vectors belong
+    return options_.angles == Cone_angles::CHOSEN && options_.measure != Cone_measure::DIRICHLET_ENERGY
+        && (is_mean || !(options_.angle_quantum > 0));
   }
 
   // Places and angles together. Returns whether there is a metric with these; if there is none, cones with u = 0 may have one.

@@ -87,7 +87,7 @@ private:
     {
       fit_.set_exponent(p);
       fit_.apply(s);
-      search_.slide(s, 6);
+      search_.slide(s, 20);
       if(measure_(s) < measure_(best))
         best = s;
     }

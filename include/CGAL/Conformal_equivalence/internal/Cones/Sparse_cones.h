@@ -87,7 +87,8 @@ public:
   // Moves cones as long as that makes it better, at most so many rounds. Returns whether any was.
   bool slide(Curved_cones& s, int most_rounds)
   {
-    std::vector<double> stiffness(s.cones.size(), 1);
+    // where |u| is large cones do not move, as a rule
+    std::vector<double> stiffness(s.cones.size(), fit_.exponent() > 2 ? 1. / 16 : 1.);
     bool has_moved = false;
     for(int round = 0; round < most_rounds; ++round)
     {
@@ -156,7 +157,7 @@ public:
   }
 
 private:
-  static constexpr double gain_of_round = 1e-3; // a part of |u|_p; for less, a round is not worth its solutions
+  static constexpr double gain_of_round = 5e-4; // a part of |u|_p; for less, a round is not worth its solutions
 
   struct Proposal { Index to; double gain; };
 
@@ -231,7 +232,7 @@ private:
   bool move_all(Curved_cones& s, std::vector<double>& stiffness)
   {
     const Eigen::VectorXd w = fit_.load_weights(s.u), p = model_.response(w.cwiseProduct(s.u));
-    for(int attempt = 0; attempt < 3; ++attempt)
+    for(int attempt = 0; attempt < 4; ++attempt)
     {
       const std::vector<Proposal> to = proposals(s, p, w.sum(), stiffness);
       Curved_cones trial = s;
@@ -244,7 +245,7 @@ private:
       {
         s = std::move(trial);
         for(double& x : stiffness)
-          x = (std::max)(x / 2, 1. / 16);
+          x = (std::max)(x / 2, 1. / 64);
         return true;
       }
       for(double& x : stiffness)
@@ -257,6 +258,8 @@ private:
   bool move_one(Curved_cones& s, std::vector<double>& stiffness)
   {
     const Eigen::VectorXd w = fit_.load_weights(s.u), p = model_.response(w.cwiseProduct(s.u));
+    for(double& x : stiffness)
+      x = (std::max)(x / 64, 1. / 64); // where all together did not do
     const std::vector<Proposal> to = proposals(s, p, w.sum(), stiffness);
     std::vector<std::size_t> order;
     for(std::size_t i = 0; i < to.size(); ++i)
@@ -265,15 +268,24 @@ private:
     std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return to[i].gain > to[j].gain; });
     for(std::size_t i : order)
     {
-      Curved_cones trial = s;
-      trial.cones[i] = to[i].to;
-      judge(trial);
-      if(trial.value < s.value)
+      Index last = s.cones[i];
+      for(int attempt = 0; attempt < 3; ++attempt, stiffness[i] *= 4)
       {
-        s = std::move(trial);
-        return true;
+        const Index next = walk(s, i, p, stiffness[i] * w.sum(), s.cones).to;
+        if(next == s.cones[i])
+          break;
+        if(next == last)
+          continue;
+        last = next;
+        Curved_cones trial = s;
+        trial.cones[i] = next;
+        judge(trial);
+        if(trial.value < s.value)
+        {
+          s = std::move(trial);
+          return true;
+        }
       }
-      stiffness[i] *= 4;
     }
     return false;
   }
