@@ -8,7 +8,7 @@
 #include "include/boost_test.h"
 #include "include/tolerances.h"
 
-#include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
+#include <CGAL/Conformal_equivalence/internal/Lattices/closest_vector.h>
 
 #include <Eigen/LU>
 

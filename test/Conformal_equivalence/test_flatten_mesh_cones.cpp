@@ -385,11 +385,15 @@ BOOST_AUTO_TEST_CASE(cones_place_themselves)
   const Flattened g = with_placed_cones(folder, input, {"--cones", "auto", "--max-area", number(area_bound)});
   BOOST_TEST(area_distortion(g.layout) <= area_bound * (1 + 1e-9));
   BOOST_TEST(area_distortion(g.layout) > 1);
+  const Flattened h = with_placed_cones(folder, input, {"--cones", "auto", "--max-rms", "0.05", "--cone-measure", "rms"});
+  BOOST_TEST(h.report["cones"].size() >= 1u);
   fs::remove(folder.path / "first.json");
 
   const std::set<std::string> files = folder.files();
   for(const std::vector<std::string>& options : std::vector<std::vector<std::string> >{{"--max-scale", "1e-6"}, {"--max-area", "1.000001"}})
     check_refused(with({input, "-o", folder / "p.obj", "--cones", "auto=2"}, options), 1, "the bound on the distortion was not met: ");
+  check_refused({input, "-o", folder / "p.obj", "--cones", "auto=2", "--cone-measure", "mean"}, 2,
+                "--cone-measure takes max, rms or area, not 'mean'");
   check_refused({input, "-o", folder / "p.obj", "--cones", "auto=1000"}, 1, "not enough vertices for the cones");
   const std::string sphere = write_off(folder, "sphere.off", testing::icosphere(1));
   check_refused({sphere, "-o", folder / "p.obj", "--cones", "auto=2"}, 1, "a sphere needs three cones, at least");

@@ -313,7 +313,8 @@ BOOST_AUTO_TEST_CASE(seamless_layouts_are_refused)
   const auto refused = [&](const std::vector<std::string>& options, const std::string& reason)
     { check_refused(with({input, "-o", obj}, options), 2, reason); };
   // cones that place themselves
-  refused({"--cones", "auto"}, "needs a number (--cones auto=N), or a bound (--max-scale U or --max-area A); a file of this name: ./auto");
+  refused({"--cones", "auto"},
+          "needs a number (--cones auto=N), or a bound (--max-scale U, --max-area A or --max-rms E); a file of this name: ./auto");
   for(const char* number : {"", "0", "-1", "1.5", "many", "99999999999999999999"})
     refused({"--cones", std::string("auto=") + number}, "--cones auto= takes a positive integer");
   for(const char* bound : {"", "0", "-1", "nan", "inf", "small"})

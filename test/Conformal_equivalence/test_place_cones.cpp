@@ -18,8 +18,10 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace CE = CGAL::Conformal_equivalence;
@@ -71,6 +73,100 @@ double least_error(const std::vector<double>& x, long sum)
   };
   assign(0, sum, 0);
   return best;
+}
+
+// Each triangle cut into four, as it lies in its plane.
+Soup divided(Soup soup, int levels)
+{
+  for(int level = 0; level < levels; ++level)
+  {
+    std::map<std::pair<Index, Index>, Index> middle;
+    const auto middle_of = [&](Index a, Index b)
+    {
+      const auto known = middle.emplace(std::make_pair((std::min)(a, b), (std::max)(a, b)), Index(soup.points.size()));
+      if(known.second)
+      {
+        Point p;
+        for(std::size_t i = 0; i < 3; ++i)
+          p[i] = (soup.points[a][i] + soup.points[b][i]) / 2;
+        soup.points.push_back(p);
+      }
+      return known.first->second;
+    };
+    decltype(soup.triangles) triangles;
+    for(const auto& t : soup.triangles)
+    {
+      const Index a = middle_of(t[0], t[1]), b = middle_of(t[1], t[2]), c = middle_of(t[2], t[0]);
+      triangles.push_back({{t[0], a, c}});
+      triangles.push_back({{a, t[1], b}});
+      triangles.push_back({{c, b, t[2]}});
+      triangles.push_back({{a, b, c}});
+    }
+    soup.triangles.swap(triangles);
+  }
+  return soup;
+}
+
+Soup tetrahedron()
+{
+  Soup soup;
+  soup.points = {{{1, 1, 1}}, {{1, -1, -1}}, {{-1, 1, -1}}, {{-1, -1, 1}}};
+  soup.triangles = {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 1}}, {{1, 3, 2}}};
+  return soup;
+}
+
+Soup octahedron()
+{
+  Soup soup;
+  soup.points = {{{1, 0, 0}}, {{-1, 0, 0}}, {{0, 1, 0}}, {{0, -1, 0}}, {{0, 0, 1}}, {{0, 0, -1}}};
+  soup.triangles = {{{0, 2, 4}}, {{2, 1, 4}}, {{1, 3, 4}}, {{3, 0, 4}}, {{2, 0, 5}}, {{1, 2, 5}}, {{3, 1, 5}}, {{0, 3, 5}}};
+  return soup;
+}
+
+Soup cube()
+{
+  Soup soup;
+  for(int i = 0; i < 8; ++i)
+    soup.points.push_back({{double(i & 1), double(i / 2 & 1), double(i / 4)}});
+  soup.triangles = {{{0, 2, 1}}, {{1, 2, 3}}, {{4, 5, 6}}, {{5, 7, 6}}, {{0, 1, 4}}, {{1, 5, 4}},
+                    {{2, 6, 3}}, {{3, 6, 7}}, {{0, 4, 2}}, {{2, 4, 6}}, {{1, 3, 5}}, {{3, 7, 5}}};
+  return soup;
+}
+
+// At a, between b and c.
+double angle_at(const Soup& soup, Index a, Index b, Index c)
+{
+  double dot = 0, square_b = 0, square_c = 0;
+  for(std::size_t i = 0; i < 3; ++i)
+  {
+    const double x = soup.points[b][i] - soup.points[a][i], y = soup.points[c][i] - soup.points[a][i];
+    dot += x * y;
+    square_b += x * x;
+    square_c += y * y;
+  }
+  return std::acos(dot / std::sqrt(square_b * square_c));
+}
+
+typedef CE::internal::Cone_model<double>   Model;
+typedef CE::internal::Cone_fit<double>     Fit;
+typedef CE::internal::Curved_cones         Curved_cones;
+
+std::unique_ptr<Model> model_of(const Triangulation& t)
+{
+  auto result = std::make_unique<Model>(t, std::vector<double>(t.number_of_vertices(), 0.), double(only_component(t).euler_characteristic()),
+                                        CE::internal::make_factorization<CE::Default_solver_traits>());
+  BOOST_REQUIRE(result->factorize());
+  return result;
+}
+
+// Some cones, not where they should be, as exactly as the model knows them.
+Curved_cones some_cones(Model& model, std::size_t n)
+{
+  Curved_cones s;
+  for(std::size_t i = 0; i < n; ++i)
+    s.cones.push_back(model.places()[(2 * i + 1) * model.places().size() / (2 * n)]);
+  model.sharpen(s.cones);
+  return s;
 }
 
 } // namespace
@@ -300,6 +396,234 @@ BOOST_AUTO_TEST_CASE(the_vertex_with_the_largest_u_is_found_whatever_u_is)
   BOOST_TEST(!search.put_cone(p));
 }
 
+// ---- Chosen angles
+
+// u of the model is that of the metric to first order: for a surface that is nearly flat, the error is of second order in the curvature.
+BOOST_AUTO_TEST_CASE(the_model_foresees_u_to_first_order)
+{
+  std::array<double, 2> error;
+  for(int k = 0; k < 2; ++k)
+  {
+    const double height = k == 0 ? 0.05 : 0.025;
+    const Triangulation t = triangulation(grid(14, [&](double x, double y) { return height * std::sin(5 * x + 1) * std::cos(4 * y); }));
+    const auto model = model_of(t);
+    Curved_cones s = some_cones(*model, 2);
+    s.curvatures.resize(2);
+    s.curvatures << height * height, -2 * height * height;
+    Fit fit(*model, CE::internal::vertex_areas(t), false);
+    fit.apply(s);
+    CE::Conformal_conditions<double> conditions(t);
+    for(std::size_t i = 0; i < 2; ++i)
+      conditions.prescribe_angle_sum(s.cones[i], 2 * pi - s.curvatures[Eigen::Index(i)]);
+    const auto metric = CE::compute_conformal_metric(t, conditions, params::retriangulation(CE::Retriangulation::NEVER));
+    BOOST_REQUIRE(bool(metric));
+    double difference = 0;
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      difference = (std::max)(difference, std::abs(s.u[v] - metric.log_scale_factors[v]));
+    error[std::size_t(k)] = difference / largest(metric.log_scale_factors);
+  }
+  BOOST_TEST(error[0] < 0.1);
+  BOOST_TEST(error[1] < 0.4 * error[0]); // curvature is of second order in the height: a quarter, asymptotically
+}
+
+// |u|_p is convex in the curvatures: nothing near is better, so nothing is. That of the mean is the largest |u| from below.
+BOOST_AUTO_TEST_CASE(curvatures_are_the_best_ones_for_their_places)
+{
+  Soup ball = icosphere(3);
+  add_noise(ball, 0.05, 3);
+  for(const Soup& soup : {bumps(16), ball})
+    for(const int exponent : {2, 8, 64})
+    {
+      const Triangulation t = triangulation(soup);
+      const auto model = model_of(t);
+      Fit fit(*model, CE::internal::vertex_areas(t), false);
+      fit.set_exponent(exponent);
+      Curved_cones s = some_cones(*model, 5);
+      fit.fit(s);
+      BOOST_TEST(s.value <= s.largest());
+      if(model->is_closed())
+        BOOST_TEST(std::abs(s.curvatures.sum() - 4 * pi) <= few_roundings * 4 * pi);
+      for(Eigen::Index i = 0; i < 5; ++i)
+        for(const double by : {-0.05, 0.05})
+        {
+          Curved_cones other = s;
+          other.curvatures[i] += by;
+          if(model->is_closed())
+            other.curvatures[(i + 1) % 5] -= by;
+          fit.apply(other);
+          // Newton's method ends where it gains less than 1e-4; means are taken as if u were linear at cones, too
+          BOOST_TEST(other.value >= s.value * (1 - (exponent == 2 ? 1e-2 : 1e-3)));
+        }
+    }
+}
+
+// ... and the dual potential at the cones is the derivative, by differences.
+BOOST_AUTO_TEST_CASE(the_dual_potential_is_the_derivative_by_curvature)
+{
+  for(const int exponent : {2, 8})
+  {
+    const Triangulation t = triangulation(bumps(16));
+    const auto model = model_of(t);
+    Fit fit(*model, CE::internal::vertex_areas(t), false);
+    fit.set_exponent(exponent);
+    Curved_cones s = some_cones(*model, 3);
+    s.curvatures.resize(3);
+    s.curvatures << 1, -0.5, 0.7;
+    fit.apply(s);
+    CE::internal::Sparse_cones<double> search(*model, fit, 1.);
+    const Eigen::VectorXd p = search.potential(s);
+    const double h = 1e-4, largest_u = s.largest();
+    const Eigen::VectorXd load = fit.load_weights(s.u).cwiseProduct(s.u);
+    for(Eigen::Index i = 0; i < 3; ++i)
+    {
+      std::array<double, 2> value;
+      for(int k = 0; k < 2; ++k)
+      {
+        Curved_cones other = s;
+        other.curvatures[i] += k == 0 ? -h : h;
+        fit.apply(other);
+        value[std::size_t(k)] = std::pow(other.value / largest_u, exponent) / exponent;
+      }
+      const Index c = s.cones[std::size_t(i)];
+      const double found = p[c] + load[c] * model->excess(c, s.curvatures[i]).second; // where u is not linear in the curvature
+      const double expected = (value[1] - value[0]) / (2 * h) * largest_u * largest_u; // weights are relative to the largest |u|
+      BOOST_TEST(std::abs(found - expected) <= 1e-3 * p.cwiseAbs().maxCoeff()); // the preconditioner is one in single precision
+    }
+  }
+}
+
+// Surfaces that are flat but for their corners need nothing else, and have u = 0.
+BOOST_AUTO_TEST_CASE(corners_of_regular_solids_are_found)
+{
+  for(const Soup& soup : {divided(tetrahedron(), 3), divided(octahedron(), 3), divided(cube(), 3)})
+    for(const CE::Cone_measure measure : {CE::Cone_measure::ROOT_MEAN_SQUARE_U, CE::Cone_measure::MAXIMUM_U})
+    {
+      const Triangulation t = triangulation(soup);
+      std::vector<Index> corners;
+      std::vector<double> angles;
+      for(Index v = 0; v < t.number_of_vertices(); ++v)
+      {
+        double angle = 0;
+        t.for_each_outgoing(v, [&](Index h) { angle += angle_at(soup, t.origin(h), t.target(h), t.apex(h)); });
+        if(std::abs(angle - 2 * pi) > 0.1)
+        {
+          corners.push_back(v);
+          angles.push_back(angle);
+        }
+      }
+      const auto placement = CE::place_cones(t, params::number_of_cones(corners.size()).cone_measure(measure));
+      BOOST_REQUIRE(bool(placement));
+      BOOST_TEST((placement.cones == corners));
+      BOOST_TEST(placement.root_mean_square <= 1e-6); // angles are found up to the 1e-10 of the columns, and again at the metric
+      for(std::size_t i = 0; i < angles.size() && placement.cones == corners; ++i)
+        BOOST_TEST(std::abs(placement.angles[i].radians() - angles[i]) <= 1e-6);
+    }
+}
+
+// Each measure is the least where it is aimed at.
+BOOST_AUTO_TEST_CASE(what_is_aimed_at_is_best)
+{
+  for(const Soup& soup : {bumps(24), arms(3), scaled(icosphere(3), 1, 1, 3)})
+    for(const std::size_t n : {4u, 8u})
+    {
+      const Triangulation t = triangulation(soup);
+      const auto aimed_at = [&](CE::Cone_measure measure) { return CE::place_cones(t, params::number_of_cones(n).cone_measure(measure)); };
+      const auto most = aimed_at(CE::Cone_measure::MAXIMUM_U), mean = aimed_at(CE::Cone_measure::ROOT_MEAN_SQUARE_U),
+                 area = aimed_at(CE::Cone_measure::AREA_DISTORTION);
+      const auto zero = CE::place_cones(t, params::number_of_cones(n).cone_angles(CE::Cone_angles::ZERO_U));
+      for(const auto& placement : {most, mean, area, zero})
+      {
+        BOOST_REQUIRE(bool(placement));
+        BOOST_TEST(placement.cones.size() == n);
+        BOOST_TEST(most.maximum_log_scale_factor <= 1.2 * placement.maximum_log_scale_factor); // places are those of a search
+        BOOST_TEST(mean.root_mean_square <= 1.1 * placement.root_mean_square);
+        BOOST_TEST(std::log(area.area_distortion) <= 1.2 * std::log(placement.area_distortion)); // aimed at by the range of u
+        for(const auto& angle : placement.angles)
+          BOOST_TEST(angle.radians() > 0);
+      }
+      BOOST_TEST(mean.root_mean_square_bound <= mean.root_mean_square);
+    }
+}
+
+// Multiples by closest vectors, at places that suit them: no worse than angles rounded afterwards, but for what the search leaves.
+BOOST_AUTO_TEST_CASE(multiples_are_chosen_for_the_root_mean_square)
+{
+  for(const Soup& soup : {bumps(20), arms(3), torus(24, 12), scaled(icosphere(3), 1, 1, 3)})
+    for(const int n : {3, 4})
+    {
+      const Triangulation t = triangulation(soup);
+      const auto np = params::number_of_cones(std::size_t(8)).angle_quantum(2 * pi / n);
+      const auto chosen = CE::place_cones(t, np.cone_measure(CE::Cone_measure::ROOT_MEAN_SQUARE_U));
+      const auto rounded = CE::place_cones(t, np.cone_angles(CE::Cone_angles::ZERO_U));
+      BOOST_REQUIRE_MESSAGE(bool(chosen), CE::message(chosen.status));
+      BOOST_REQUIRE(bool(rounded));
+      BOOST_TEST(chosen.is_rounded);
+      BOOST_TEST(chosen.cones.size() + chosen.flattened.size() == 8);
+      BOOST_TEST(chosen.free_angles.size() == chosen.cones.size());
+      BOOST_TEST(chosen.root_mean_square <= 1.02 * rounded.root_mean_square);
+      const long quantum = 2 * CE::Exact_angle<double>::units_of_pi / n;
+      long curvature = 0;
+      for(const auto& angle : chosen.angles)
+      {
+        BOOST_TEST(angle.is_exact());
+        BOOST_TEST(angle.units > 0);
+        BOOST_TEST(angle.units % quantum == 0);
+        BOOST_TEST(angle.units != n * quantum);
+        curvature += n * quantum - angle.units;
+      }
+      if(only_component(t).number_of_borders == 0)
+        BOOST_TEST(curvature == long(only_component(t).euler_characteristic()) * n * quantum);
+    }
+  const auto cubic = CE::place_cones(triangulation(divided(cube(), 3)), params::number_of_cones(std::size_t(8)).angle_quantum(pi / 2)
+                                                                            .cone_measure(CE::Cone_measure::ROOT_MEAN_SQUARE_U));
+  BOOST_REQUIRE(bool(cubic));
+  BOOST_TEST((cubic.cones == std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7}));
+  BOOST_TEST(cubic.root_mean_square <= unmoved_u);
+}
+
+BOOST_AUTO_TEST_CASE(a_bound_on_the_root_mean_square_is_met_or_the_best_is_returned)
+{
+  const Triangulation t = triangulation(arms(3));
+  const auto two = CE::place_cones(t, params::number_of_cones(std::size_t(3)).cone_measure(CE::Cone_measure::ROOT_MEAN_SQUARE_U));
+  BOOST_REQUIRE(bool(two));
+  const double bound = two.root_mean_square / 2;
+  const auto met = CE::place_cones(t, params::maximum_root_mean_square(bound));
+  BOOST_REQUIRE(bool(met));
+  BOOST_TEST(met.root_mean_square <= bound);
+  BOOST_TEST(met.cones.size() > 3);
+  const auto missed = CE::place_cones(t, params::maximum_root_mean_square(bound / 1000).number_of_cones(std::size_t(4)));
+  BOOST_TEST((missed.status == CE::Status::BOUND_NOT_MET));
+  BOOST_TEST(missed.cones.size() == 4);
+  BOOST_TEST(missed.amount == missed.root_mean_square);
+}
+
+// Other cones with the same total curvature are not better, to first order.
+BOOST_AUTO_TEST_CASE(the_lower_bound_is_one)
+{
+  for(const Soup& soup : {bumps(16), arms(2)})
+  {
+    const Triangulation t = triangulation(soup);
+    CE::internal::Cone_options options;
+    options.number_of_cones = 12;
+    options.measure = CE::Cone_measure::ROOT_MEAN_SQUARE_U;
+    CE::internal::Cone_chooser<double> chooser(t, only_component(t), options, CE::internal::factorization_maker<CE::Default_solver_traits>());
+    BOOST_REQUIRE(chooser.begin());
+    const Curved_cones best = chooser.placed(12);
+    const double total = best.curvatures.cwiseAbs().sum(), bound = chooser.lower_bound(best);
+    BOOST_TEST(bound >= 0);
+    BOOST_TEST(bound <= best.value);
+    const auto model = model_of(t);
+    Fit fit(*model, CE::internal::vertex_areas(t), true);
+    for(std::size_t n = 4; n < 40; n += 3)
+    {
+      Curved_cones s = some_cones(*model, n);
+      fit.fit(s);
+      if(s.curvatures.cwiseAbs().sum() <= total)
+        BOOST_TEST(s.value >= bound);
+    }
+  }
+}
+
 // ---- Placements
 
 BOOST_AUTO_TEST_CASE(cones_make_it_better_and_optimization_no_worse_than_the_greedy_placement)
@@ -318,7 +642,7 @@ BOOST_AUTO_TEST_CASE(cones_make_it_better_and_optimization_no_worse_than_the_gre
         Search::add(greedy, search.worst_vertex(greedy));
         BOOST_REQUIRE(search.relax(greedy, 20, search_tolerance));
       }
-      const auto placement = CE::place_cones(t, params::number_of_cones(n));
+      const auto placement = CE::place_cones(t, params::number_of_cones(n).cone_angles(CE::Cone_angles::ZERO_U));
       BOOST_REQUIRE(bool(placement));
       BOOST_TEST(placement.cones.size() == n);
       BOOST_TEST(std::is_sorted(placement.cones.begin(), placement.cones.end()));
@@ -425,9 +749,9 @@ BOOST_AUTO_TEST_CASE(a_bound_on_areas_is_met_or_the_best_is_returned)
   for(Point& p : small.points)
     for(double& x : p)
       x *= std::ldexp(1., -450);
-  // areas are multiplied by e^{2u}, and compared with a mean of such areas
-  const double moved = CE::place_cones(triangulation(small), params::number_of_cones(std::size_t(2))).area_distortion - missed.area_distortion;
-  BOOST_TEST(std::abs(moved) <= 4 * solved_u * missed.area_distortion);
+  const auto there = CE::place_cones(triangulation(small), params::number_of_cones(std::size_t(2)).cone_measure(CE::Cone_measure::AREA_DISTORTION));
+  // angles are chosen by iterations that end at 1e-4 of the measure; these differ by roundings only
+  BOOST_TEST(std::abs(there.area_distortion - missed.area_distortion) <= 1e-4 * missed.area_distortion);
 }
 
 // Where edges are flipped, no triangle of the metric is one of the surface.
@@ -472,8 +796,8 @@ BOOST_AUTO_TEST_CASE(few_systems_are_solved)
       const auto placement = CE::place_cones(t, params::number_of_cones(n_cones).angle_quantum(pi / 2));
       BOOST_REQUIRE(bool(placement));
       BOOST_TEST(placement.number_of_solves > n_cones);
-      BOOST_TEST(placement.number_of_solves <= 60 + 15 * n_cones);
-      BOOST_TEST(placement.metric.statistics.number_of_iterations <= 4); // the search was near
+      BOOST_TEST(placement.number_of_solves <= 300 + 150 * n_cones);
+      BOOST_TEST(placement.metric.statistics.number_of_iterations <= 6); // the search was near
     }
   }
 }
@@ -531,6 +855,34 @@ BOOST_AUTO_TEST_CASE(the_numbers_of_vertices_do_not_matter)
   for(Index c : first.cones)
     expected.insert(number[c]);
   BOOST_TEST((expected == found));
+}
+
+// Whenever it is stopped: what has been found by then is a metric, or there is none.
+BOOST_AUTO_TEST_CASE(the_best_so_far_is_returned_when_the_visitor_stops)
+{
+  struct Impatient : public CE::Default_visitor
+  {
+    int left;
+    explicit Impatient(int n) : left(n) {}
+    bool go_further() { return left-- > 0; }
+  };
+  const Triangulation t = triangulation(arms(3));
+  int n_done = 0;
+  for(int n = 0; n < 200; ++n)
+  {
+    const auto placement = CE::place_cones(t, params::number_of_cones(std::size_t(5)).visitor(Impatient(n)));
+    if(bool(placement))
+    {
+      ++n_done;
+      break;
+    }
+    BOOST_TEST((placement.status == CE::Status::STOPPED_BY_VISITOR));
+    if(!bool(placement.metric) || placement.metric.log_scale_factors.empty())
+      continue;
+    BOOST_TEST(placement.cones.size() == 5);
+    BOOST_TEST(placement.maximum_log_scale_factor == largest(placement.metric.log_scale_factors));
+  }
+  BOOST_TEST(n_done == 1);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused)

@@ -19,6 +19,7 @@ Report place_cones(const Options& options, const Conditions& conditions, Results
     {
       conditions.cone_angle[cone.vertex] = 2 * CGAL_PI;
       conditions.is_constrained[cone.vertex] = true;
+      conditions.u[cone.vertex] = results.given.u[cone.vertex]; // which has the angle found
     }
   return report;
 }

@@ -62,11 +62,16 @@ po::options_description visible_options()
     ("cones", po::value<std::string>(),
        "FILE: cones inside the surface, lines 'vertex-index [angle in degrees | free]'; at a free cone, or where nothing "
        "follows the vertex, u = 0 and the angle is found. Closed surfaces need cones, except for tori\n"
-       "auto[=N]: N cones place themselves, or as many as it takes for --max-scale or --max-area (a file of such a name is given as ./auto); on each "
-       "component, and on one with fewer than N vertices inside as many as it has, unless all are such")
+       "auto[=N]: N cones place themselves, or as many as it takes for --max-scale, --max-area or --max-rms (a file of such a name is given as "
+       "./auto); their angles are chosen with their places. On each component, and on one with fewer than N vertices inside as many as it has, "
+       "unless all are such")
     ("max-scale", po::value<std::string>(), "U: with --cones auto, cones are placed until |u| is at most U everywhere")
     ("max-area", po::value<std::string>(), "A: with --cones auto, cones are placed until no triangle is scaled by more than the factor A, "
        "relative to the mean of the areas")
+    ("max-rms", po::value<std::string>(), "E: with --cones auto, cones are placed until the area-weighted root mean square of u, less its mean, "
+       "is at most E")
+    ("cone-measure", po::value<std::string>(), "max | rms | area: what --cones auto makes small: the largest |u|, the root mean square of u, or the "
+       "largest factor between areas; by default what is bounded, or max")
     ("quantize", po::value<std::string>(), "[DEGREES]: the angles of cones are multiples of this one, 360 / n (90 if none "
        "is given): those of --cones auto are rounded, those of a file have to be")
     ("seamless", po::bool_switch(), "the layout is scaled, turned and deformed as little as it takes, so that a texture of tiles fits across the "
@@ -276,6 +281,18 @@ unsigned int parse_quantum(const std::string& word)
   return static_cast<unsigned int>(std::round(360 / degrees));
 }
 
+CGAL::Conformal_equivalence::Cone_measure parse_cone_measure(const std::string& word)
+{
+  typedef CGAL::Conformal_equivalence::Cone_measure Measure;
+  if(word == "max")
+    return Measure::MAXIMUM_U;
+  if(word == "rms")
+    return Measure::ROOT_MEAN_SQUARE_U;
+  if(word == "area")
+    return Measure::AREA_DISTORTION;
+  throw Usage_error("--cone-measure takes max, rms or area, not '" + word + "'");
+}
+
 void parse_placement(const po::variables_map& values, Options& options)
 {
   const std::string cones = values["cones"].as<std::string>();
@@ -286,8 +303,13 @@ void parse_placement(const po::variables_map& values, Options& options)
     options.maximum_log_scale_factor = parse_number_above(0, values, "max-scale");
   if(is_given(values, "max-area"))
     options.maximum_area_distortion = parse_number_above(1, values, "max-area");
-  if(cones == "auto" && ! is_given(values, "max-scale") && ! is_given(values, "max-area"))
-    throw Usage_error("--cones auto needs a number (--cones auto=N), or a bound (--max-scale U or --max-area A); a file of this name: ./auto");
+  if(is_given(values, "max-rms"))
+    options.maximum_root_mean_square = parse_number_above(0, values, "max-rms");
+  if(is_given(values, "cone-measure"))
+    options.cone_measure = parse_cone_measure(values["cone-measure"].as<std::string>());
+  if(cones == "auto" && ! is_given(values, "max-scale") && ! is_given(values, "max-area") && ! is_given(values, "max-rms"))
+    throw Usage_error("--cones auto needs a number (--cones auto=N), or a bound (--max-scale U, --max-area A or --max-rms E); "
+                      "a file of this name: ./auto");
   for(const std::string& boundary : values.count("boundary") ? values["boundary"].as<std::vector<std::string> >() : std::vector<std::string>())
     if(boundary != "natural")
       throw Usage_error(text("--cones ", cones, " and --boundary ", boundary, " exclude each other: cones are placed for natural borders"));
@@ -319,7 +341,7 @@ void parse_cones(const po::variables_map& values, Options& options)
   const bool is_auto = cones == "auto" || cones.compare(0, 5, "auto=") == 0, is_seamless = values["seamless"].as<bool>();
   if(is_given(values, "cones") && cones.empty())
     throw Usage_error("--cones needs the name of a file");
-  require(is_auto, values, "--cones auto", {"max-scale", "max-area"});
+  require(is_auto, values, "--cones auto", {"max-scale", "max-area", "max-rms", "cone-measure"});
   require(is_seamless, values, "--seamless", {"tiles", "distortion", "lattice-coordinates"});
   require(is_seamless || ! cones.empty(), values, "--cones or --seamless", {"quantize"});
   if(is_given(values, "quantize"))

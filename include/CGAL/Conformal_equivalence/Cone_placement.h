@@ -31,7 +31,7 @@ struct Cone_placement
 
   std::vector<Index> cones;                ///< in ascending order
   std::vector<Exact_angle<NT> > angles;    ///< by cone: the angle sum, exactly if it was rounded to a multiple
-  std::vector<double> free_angles;         ///< by cone: what it was before it was rounded, when all cones were free (radians, up to 1e-6)
+  std::vector<double> free_angles;         ///< by cone: what it was before it was rounded, when all angles were free (radians, up to 1e-6)
   bool is_rounded = false;                 ///< whether angles were rounded
   std::vector<Index> flattened;            ///< cones whose angles were rounded to 2 pi: they are none any more
 
@@ -41,11 +41,21 @@ struct Cone_placement
   /// the largest factor, or its inverse, by which `metric` scales areas relative to the total area: of its triangles; where edges were flipped, of
   /// the surroundings of vertices, e^{2u}. 1 if there is no metric
   double area_distortion = 1;
+
+  /// the area-weighted root mean square of u of `metric`, less its mean: the square root of the sum of A (u - m)^2, A a third of the areas of the
+  /// triangles at a vertex of the surface given, all in all 1, and m the mean of u with these weights
+  double root_mean_square = 0;
+
+  /// a lower bound, to first order in u, on the root mean square of u that any cones with the same total of |2 pi - angle| have; 0 where it is not
+  /// known: with `Cone_measure::ROOT_MEAN_SQUARE_U` and chosen angles it is
+  double root_mean_square_bound = 0;
   std::size_t number_of_sweeps = 0;        ///< of the concurrent optimization
   std::size_t number_of_moves = 0;         ///< of single cones to vertices nearby that made it better
   std::size_t number_of_solves = 0;        ///< linear systems solved with the one factor
 
-  Status status = Status::OK;              ///< whether the cones could be placed, or why not
+  /// whether the cones could be placed, or why not. With `BOUND_NOT_MET`, and `STOPPED_BY_VISITOR` where `metric` is a success, the rest is the best
+  /// that was found
+  Status status = Status::OK;
   double amount = 0;                       ///< see `Status`
 
   /// is `true` iff there is a placement that is as asked for.

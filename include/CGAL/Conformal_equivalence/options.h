@@ -47,8 +47,21 @@ enum class Newton_strategy
 /// By what placements of cones are compared: the less the better.
 enum class Cone_measure
 {
-  MAXIMUM_U,       ///< the largest |u|
-  DIRICHLET_ENERGY ///< the Dirichlet energy of u: how much the scale varies, over the whole surface
+  MAXIMUM_U,          ///< the largest |u|, as in section 5.1 of Springborn, Schroeder and Pinkall, 2008
+  /// the area-weighted root mean square of u, less its mean: the measure of Soliman, Slepcev and Crane, "Optimal Cone Singularities for Conformal
+  /// Flattening", 2018. It has one best choice of angles
+  ROOT_MEAN_SQUARE_U,
+  AREA_DISTORTION,    ///< the largest factor, or its inverse, by which areas are scaled relative to the mean
+  /// the Dirichlet energy of u: how much the scale varies, over the whole surface. Cones are placed with u = 0, as by `Cone_angles::ZERO_U`
+  DIRICHLET_ENERGY
+};
+
+/// \ingroup PkgConformalEquivalenceEnums
+/// What determines the angles of cones that are placed, where they are no multiples of a quantum.
+enum class Cone_angles
+{
+  CHOSEN, ///< they are chosen with the places, so that the measure is small
+  ZERO_U  ///< u = 0 at the cones, as in section 5.1 of Springborn, Schroeder and Pinkall, 2008
 };
 
 /// \ingroup PkgConformalEquivalenceEnums

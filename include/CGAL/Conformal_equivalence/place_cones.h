@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 /// \file place_cones.h
-/// Cones that place themselves (section 5.1 of Springborn, Schroeder and Pinkall, 2008): where the scale is most distorted, a vertex is
-/// given up to have any angle; then all cones are moved until that helps no more. Their angles may be rounded to multiples of 2 pi / n (section 6),
-/// as textures and meshes of quadrangles ask for.
+/// Cones that place themselves (section 5.1 of Springborn, Schroeder and Pinkall, 2008), so that the scale is distorted little: their places and
+/// angles are chosen together; or only the places, and u = 0 there. Their angles may be rounded to multiples of 2 pi / n (section 6), as textures and
+/// meshes of quadrangles ask for.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_PLACE_CONES_H
 #define CGAL_CONFORMAL_EQUIVALENCE_PLACE_CONES_H
@@ -52,7 +52,10 @@ Cone_options read_cone_options(const NamedParameters& np)
     choose_parameter(get_parameter(np, internal_np::conformal_maximum_area_distortion), options.maximum_area_distortion);
   options.maximum_u = choose_parameter(get_parameter(np, internal_np::conformal_maximum_u), options.maximum_u);
   options.angle_quantum = choose_parameter(get_parameter(np, internal_np::conformal_angle_quantum), options.angle_quantum);
-  options.measure = choose_parameter(get_parameter(np, internal_np::conformal_cone_measure), options.measure);
+  options.maximum_root_mean_square =
+    choose_parameter(get_parameter(np, internal_np::conformal_maximum_root_mean_square), options.maximum_root_mean_square);
+  options.measure = choose_parameter(get_parameter(np, internal_np::conformal_cone_measure), options.measure_of_bounds());
+  options.angles = choose_parameter(get_parameter(np, internal_np::conformal_cone_angles), options.angles);
   options.number_of_sweeps = choose_parameter(get_parameter(np, internal_np::conformal_number_of_sweeps), options.number_of_sweeps);
   return options;
 }
@@ -122,7 +125,21 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 
 /// \ingroup PkgConformalEquivalenceDoors
 ///
-/// places cones on a mesh, so that the flat metric with these cones distorts the scale less: |u| is to be small.
+/// places cones on a mesh, so that the flat metric with these cones distorts the scale less: what `cone_measure` says is to be small.
+///
+/// The places and the angles are unknowns. To first order u is a linear function of the curvatures of the cones, with the columns of the inverse
+/// of the Laplacian for its coefficients, which is exact for smooth surfaces. For given places the curvatures with the least root mean square of u
+/// solve a linear system with as many unknowns as there are cones; those with nearly the least largest |u|, a few dozen of them, by p-norms of
+/// growing p. The derivative by a curvature anywhere on the surface says where another cone helps most, and where to move those that are there (in
+/// the spirit of Soliman, Slepcev and Crane, "Optimal Cone Singularities for Conformal Flattening", 2018). When this gains no more, the metric
+/// with these cones is solved for. Where it is worse than foreseen the Laplacian is made anew there, and the cones are moved again. What is
+/// returned is the best metric that was solved for. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
+///
+/// With an `angle_quantum` and `Cone_measure::ROOT_MEAN_SQUARE_U` the curvatures are multiples of it, those of a closest vector in the lattice
+/// with the Gram matrix of the columns; then the cones move with these, and multiples are chosen anew.
+///
+/// With `Cone_angles::ZERO_U`, or an `angle_quantum` and any other measure, or `Cone_measure::DIRICHLET_ENERGY`, or where there is no such metric
+/// (because edges must not be flipped, for example), cones have u = 0:
 ///
 ///  - *Greedily*: the vertex with the largest |u| becomes a free cone (u = 0, any angle), one after the other. On borders u = 0. A closed surface of
 ///    a genus other than 1 begins with its curvature spread equally over the vertices, a sphere until it has three cones.
@@ -132,7 +149,10 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///  - *Rounded*, if there is an `angle_quantum`: the angles become positive multiples of it, with the least possible largest error among those which
 ///    Gauss and Bonnet's formula allows. A cone with the angle 2 pi is none any more. The others are moved locally again, now with these angles.
 ///
-/// All of this uses one factorization; the metric with the cones found is then solved for to full precision.
+/// All of this uses one factorization; the metric with the cones found is then solved for to full precision. Where nothing determines the scale of a
+/// closed surface, u is such that the largest |u| is least, or, with `Cone_measure::ROOT_MEAN_SQUARE_U`, that its mean is 0.
+///
+/// To have the same metric from `flatten()`, pass the cones with their angles, as `cone_angle_map`; on a closed surface that leaves the scale open.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam VertexAngleMap a model of `WritablePropertyMap` with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type
@@ -159,18 +179,28 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///     \cgalParamType{`double`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
+///   \cgalParamNBegin{maximum_root_mean_square}
+///     \cgalParamDescription{the bound on the area-weighted root mean square of u, less its mean (`Cone_placement::root_mean_square`)}
+///     \cgalParamType{`double`}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{angle_quantum}
 ///     \cgalParamDescription{2 pi / n: angles are rounded to multiples of it (radians)}
 ///     \cgalParamType{`double`}
 ///     \cgalParamDefault{`0`: they are not}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{cone_measure}
-///     \cgalParamDescription{by what placements are compared}
+///     \cgalParamDescription{what is to be small}
 ///     \cgalParamType{`Cone_measure`}
-///     \cgalParamDefault{`Cone_measure::MAXIMUM_U`}
+///     \cgalParamDefault{that of the bound given, the first in the order of this list; without any, `Cone_measure::MAXIMUM_U`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{cone_angles}
+///     \cgalParamDescription{what determines the angles, if there is no quantum}
+///     \cgalParamType{`Cone_angles`}
+///     \cgalParamDefault{`Cone_angles::CHOSEN`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{number_of_sweeps}
-///     \cgalParamDescription{of the concurrent optimization, at most}
+///     \cgalParamDescription{of the concurrent optimization of cones with u = 0, at most}
 ///     \cgalParamType{`std::size_t`}
 ///     \cgalParamDefault{`10`}
 ///   \cgalParamNEnd
@@ -193,11 +223,13 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 /// \cgalNamedParamsEnd
 ///
 /// \return the report, with the cones. Maps are written iff it is a success, or `BOUND_NOT_MET`: then with the best placement found, `amount` is its
-///         largest |u| if that is too large, else its area distortion. Statuses: those of `import_mesh()`; `WRONG_TOPOLOGY` (several components);
-///         `MISSING_CONDITION` (neither number nor bounds; or fewer than three cones on a sphere); `TOO_MANY_CONES` (more than vertices);
-///         `ANGLE_OUT_OF_RANGE` (the quantum is not 2 pi / n); `NOT_QUANTIZABLE`; those of `Conformal_metric_solver::solve()`.
+///         largest |u| if that is too large, else its area distortion if that is, else its root mean square of u. Statuses: those of
+///         `import_mesh()`; `WRONG_TOPOLOGY` (several components); `MISSING_CONDITION` (neither number nor bounds; or fewer than three cones on a
+///         sphere); `TOO_MANY_CONES` (more than vertices); `ANGLE_OUT_OF_RANGE` (the quantum is not 2 pi / n); `NOT_QUANTIZABLE`; those of
+///         `Conformal_metric_solver::solve()`.
 ///
-/// Time: a few solves of a linear system with the one factor for each cone and sweep, and for each local move.
+/// Time: two solutions with the one factor for each cone that is put, and one for each that is moved; for n vertices and k cones,
+/// O(n k^2) for each change of the curvatures. Memory O(n) for each place where a cone has been, up to 240 megabytes.
 template <typename TriangleMesh, typename VertexAngleMap, typename NamedParameters = parameters::Default_named_parameters>
 Flattening_report<TriangleMesh> place_cones(const TriangleMesh& tm,
                                             VertexAngleMap cone_angle_map,

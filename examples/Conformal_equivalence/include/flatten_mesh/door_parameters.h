@@ -51,6 +51,15 @@ inline auto flattening_parameters(const Options& options, const Conditions& cond
            .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL);
 }
 
+// What cones are placed for if nothing is said.
+inline CE::Cone_measure measure_of_bounds(const Options& options)
+{
+  return options.maximum_log_scale_factor > 0 ? CE::Cone_measure::MAXIMUM_U
+       : options.maximum_area_distortion > 0  ? CE::Cone_measure::AREA_DISTORTION
+       : options.maximum_root_mean_square > 0 ? CE::Cone_measure::ROOT_MEAN_SQUARE_U
+                                              : CE::Cone_measure::MAXIMUM_U;
+}
+
 // The parameters of the search for cones.
 inline auto placement_parameters(const Options& options, const Results& results, Progress_visitor& visitor)
 {
@@ -58,6 +67,8 @@ inline auto placement_parameters(const Options& options, const Results& results,
            .number_of_cones(options.number_of_cones)
            .maximum_log_scale_factor(options.maximum_log_scale_factor)
            .maximum_area_distortion(options.maximum_area_distortion)
+           .maximum_root_mean_square(options.maximum_root_mean_square)
+           .cone_measure(options.cone_measure ? *options.cone_measure : measure_of_bounds(options))
            .angle_quantum(options.quanta_of_turn == 0 ? 0. : 2 * CGAL_PI / options.quanta_of_turn);
 }
 

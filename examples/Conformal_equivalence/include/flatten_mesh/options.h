@@ -29,7 +29,8 @@ struct Options
   std::string cone_file;
   bool places_cones = false;                          // --cones auto
   std::size_t number_of_cones = 0;                    // to be placed; 0: as many as the bounds ask for
-  double maximum_log_scale_factor = 0, maximum_area_distortion = 0; // of placed cones; 0: no bound
+  double maximum_log_scale_factor = 0, maximum_area_distortion = 0, maximum_root_mean_square = 0; // of placed cones; 0: no bound
+  std::optional<CGAL::Conformal_equivalence::Cone_measure> cone_measure;       // what they are placed for; by default what is bounded
   unsigned int quanta_of_turn = 0;                    // n: the angles of cones are multiples of 2 pi / n; 0: any
   bool seamless = false, lattice_coordinates = false;
   std::size_t number_of_tiles = 0;                    // 0: by the bound on the distortion

@@ -1,9 +1,10 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Cones that place themselves: greedily, then all of them concurrently, then one after the other (section 5.1 of Springborn, Schroeder and Pinkall,
-// 2008); with angles that are rounded to multiples of 2 pi / n (section 6), if that is wanted. What is tried is compared to first order
-// (Cone_search.h); the metric with the cones that were found is solved for.
+// Cones that place themselves. Their angles are chosen with their places (Cone_chooser.h); or they have u = 0, and are placed greedily, then all
+// of them concurrently, then one after the other (section 5.1 of Springborn, Schroeder and Pinkall, 2008); with angles that are rounded to
+// multiples of 2 pi / n (section 6), if that is wanted. What is tried is compared to first order (Cone_model.h, Cone_search.h); the metric with
+// the cones that were found is solved for, and decides.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_PLACER_H
@@ -15,12 +16,16 @@
 #include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_chooser.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_excursion.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_options.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_search.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/area_distortion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/nearest_integers.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/u_measures.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 #include <CGAL/Conformal_equivalence/options.h>
@@ -30,6 +35,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <set>
 #include <utility>
@@ -38,17 +44,6 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-// What is asked of a placement; 0 stands for what is not asked.
-struct Cone_options
-{
-  std::size_t number_of_cones = 0;
-  double maximum_u = 0;
-  double maximum_area_distortion = 0;
-  double angle_quantum = 0; // radians
-  Cone_measure measure = Cone_measure::MAXIMUM_U;
-  std::size_t number_of_sweeps = 10;
-};
 
 template <typename NT>
 class Cone_placer
@@ -64,7 +59,7 @@ public:
   Cone_placer(const Triangulation& t, const Cone_options& options, const Solver_options& solver_options,
               std::unique_ptr<Factorization> search_factorization, Make_factorization make_factorization)
     : t_(t), options_(options), solver_options_(solver_options), make_factorization_(std::move(make_factorization)),
-      search_factorization_(std::move(search_factorization)), pieces_(connected_components(t))
+      search_factorization_(std::move(search_factorization)), pieces_(connected_components(t)), area_(vertex_areas(t))
   {}
 
   // Can be called once.
@@ -92,18 +87,19 @@ private:
       result_.status = Status::EMPTY_MESH;
     else if(pieces_.components.size() != 1)
       result_.status = Status::WRONG_TOPOLOGY;
-    else if(options_.number_of_cones == 0 && !has_bound())
+    else if(options_.number_of_cones == 0 && !options_.has_bound())
       result_.status = Status::MISSING_CONDITION;
     return result_.status == Status::OK;
   }
 
-  bool has_bound() const { return options_.maximum_u > 0 || options_.maximum_area_distortion > 0; }
   bool is_sphere() const { return number_of_borders() == 0 && pieces_.components[0].euler_characteristic() > 0; }
   std::size_t number_of_borders() const { return pieces_.components[0].number_of_borders; }
 
-  bool check_number(const Search& search)
+  bool check_number()
   {
-    const std::size_t n = search.candidates().size();
+    std::size_t n = 0;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      n += t_.is_isolated_vertex(v) || t_.is_border_vertex(v) ? 0 : 1;
     if(options_.number_of_cones > n || (is_sphere() && n < 3))
       refuse(Status::TOO_MANY_CONES, double(n));
     else if(is_sphere() && options_.number_of_cones > 0 && options_.number_of_cones < 3)
@@ -178,8 +174,27 @@ private:
     result_.maximum_log_scale_factor = 0;
     for(const NT& u : result_.metric.log_scale_factors)
       result_.maximum_log_scale_factor = (std::max)(result_.maximum_log_scale_factor, std::abs(static_cast<double>(u)));
-    if(is_success(result_.metric.status))
-      result_.area_distortion = area_distortion_of_metric(t_, result_.metric);
+    if(!is_success(result_.metric.status))
+      return;
+    result_.area_distortion = area_distortion_of_metric(t_, result_.metric);
+    result_.root_mean_square = root_mean_square(area_, found_u());
+  }
+
+  // u of the metric of the result
+  Vertex_vector found_u() const
+  {
+    Vertex_vector u;
+    for(const NT& x : result_.metric.log_scale_factors)
+      u.push_back(static_cast<double>(x));
+    return u;
+  }
+
+  // What is aimed at
+  double measured() const
+  {
+    return options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U ? result_.root_mean_square
+         : options_.measure == Cone_measure::AREA_DISTORTION    ? result_.area_distortion
+                                                                : result_.maximum_log_scale_factor;
   }
 
   // ---- Angles of free cones
@@ -234,6 +249,8 @@ private:
       refuse(Status::BOUND_NOT_MET, result_.maximum_log_scale_factor);
     else if(misses_maximum_area_distortion())
       refuse(Status::BOUND_NOT_MET, result_.area_distortion);
+    else if(misses_maximum_root_mean_square())
+      refuse(Status::BOUND_NOT_MET, result_.root_mean_square);
   }
 
   // Does the metric of the result?
@@ -241,6 +258,180 @@ private:
   bool misses_maximum_area_distortion() const
   {
     return options_.maximum_area_distortion > 0 && !(result_.area_distortion <= options_.maximum_area_distortion);
+  }
+
+  bool misses_a_bound() const { return misses_maximum_u() || misses_maximum_area_distortion() || misses_maximum_root_mean_square(); }
+  bool misses_maximum_root_mean_square() const
+  {
+    return options_.maximum_root_mean_square > 0 && !(result_.root_mean_square <= options_.maximum_root_mean_square);
+  }
+
+  // ---- Chosen angles
+
+  bool are_angles_chosen() const
+  {
+    const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U; // to which closest vectors belong
+    return options_.angles == Cone_angles::CHOSEN && options_.measure != Cone_measure::DIRICHLET_ENERGY
+        && (is_mean || !(options_.angle_quantum > 0));
+  }
+
+  // Places and angles together. Returns whether there is a metric with these; if there is none, cones with u = 0 may have one.
+  bool choose()
+  {
+    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, solver_options_.visitor);
+    if(!chooser.begin())
+      return false;
+    Curved_cones s;
+    if(options_.has_bound() && chooser.without_cones(s) && conclude(chooser, s, 0) && !misses_a_bound())
+      return true;
+    if(is_stopped())
+      return true;
+    s = chooser.placed(most_cones_for_bound);
+    if(!solver_options_.visitor.go_further())
+    {
+      refuse(Status::STOPPED_BY_VISITOR);
+      return true;
+    }
+    if(!conclude_and_refine(chooser, s))
+      return false;
+    for(int round = 0; round < most_additions && is_bound_missed() && s.cones.size() < most_cones_for_bound && chooser.add(s); ++round)
+    {
+      const Cone_placement<NT> last = result_;
+      if(!conclude_and_refine(chooser, s) || is_stopped())
+      {
+        keep(last);
+        break;
+      }
+    }
+    if(options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U && result_.status == Status::OK && !is_stopped())
+      result_.root_mean_square_bound = chooser.lower_bound(s);
+    result_.number_of_solves = chooser.number_of_solves();
+    return is_success(result_.metric.status) || result_.status == Status::NOT_QUANTIZABLE || is_stopped();
+  }
+
+  bool is_stopped() const { return result_.metric.status == Status::STOPPED_BY_VISITOR; }
+
+  // What was found last is not better, or was not found: the one before is the result.
+  void keep(const Cone_placement<NT>& last)
+  {
+    const bool was_stopped = is_stopped();
+    result_ = last;
+    if(was_stopped)
+      refuse(Status::STOPPED_BY_VISITOR);
+  }
+
+  // The metric with the cones of `s`, rounded if that is asked for. Returns whether there is one, or it is known why not.
+  bool conclude_and_refine(Cone_chooser<NT>& chooser, Curved_cones& s)
+  {
+    const long n = options_.angle_quantum > 0 ? quanta_of_turn() : 0;
+    Curved_cones rounded = s;
+    if(n > 0 && !chooser.quantize(rounded, n))
+    {
+      result_.free_angles.assign(s.cones.size(), 0.);
+      refuse(Status::NOT_QUANTIZABLE, double(sum_of_multiples(n)) * quantum(n));
+      return true;
+    }
+    Curved_cones& concluded = n > 0 ? rounded : s;
+    if(!conclude(chooser, concluded, n))
+      return is_stopped();
+    refine(chooser, concluded, n);
+    return true;
+  }
+
+  // The model foresees u to first order. Where that was not good enough, it is made anew at the metric found, and tells how to go on from there.
+  void refine(Cone_chooser<NT>& chooser, Curved_cones& s, long n)
+  {
+    const int most_rounds = 2; // each costs a factor, some solutions with it, and a metric
+    for(int round = 0; round < most_rounds; ++round)
+    {
+      if(measured() <= 1.02 * chooser.measure(s) || !chooser.go_on_from(result_.metric))
+        return;
+      const Cone_placement<NT> last = result_;
+      const double before = measured();
+      Curved_cones next = s;
+      if(n > 0)
+        chooser.improve_quantized(next, n);
+      else
+        chooser.improve(next, false);
+      if(!conclude(chooser, next, n) || !(measured() < before))
+        return keep(last);
+      s = std::move(next);
+      if(!(measured() < 0.99 * before))
+        return;
+    }
+  }
+
+  // Takes these cones for the result, with multiples of 2 pi / n if n is not 0, and finds its metric. Returns whether there is one.
+  bool conclude(Cone_chooser<NT>& chooser, const Curved_cones& s, long n)
+  {
+    const double turn = 2 * Number_constants<double>::pi();
+    const Eigen::VectorXd free = n > 0 ? chooser.best_curvatures(s) : s.curvatures;
+    std::vector<std::pair<Index, Eigen::Index> > order;
+    for(std::size_t i = 0; i < s.cones.size(); ++i)
+      order.emplace_back(s.cones[i], Eigen::Index(i));
+    std::sort(order.begin(), order.end());
+    result_.cones.clear();
+    result_.free_angles.clear();
+    result_.angles.clear();
+    for(const auto& cone : order)
+    {
+      Exact_angle<NT> exact;
+      exact.rest = NT(turn - s.curvatures[cone.second]);
+      result_.cones.push_back(cone.first);
+      result_.angles.push_back(n > 0 ? multiple(n - std::lround(s.curvatures[cone.second] / quantum(n)), n) : exact);
+      result_.free_angles.push_back(turn - free[cone.second]);
+    }
+    result_.is_rounded = n > 0;
+    result_.flattened = s.flattened;
+    std::sort(result_.flattened.begin(), result_.flattened.end());
+    Placement p;
+    p.cones = result_.cones;
+    p.u = chooser.u_of(s);
+    p.error = angle_error(p.u) < angle_error(Vertex_vector(p.u.size(), 0.)) / 2 ? 0 : 1;
+    solve(p, result_.angles);
+    centre();
+    return is_success(result_.metric.status);
+  }
+
+  // The largest difference of an angle sum from what it is to be.
+  double angle_error(const Vertex_vector& u) const
+  {
+    Conformal_energy<double, NT> energy(t_, true);
+    if(!energy.evaluate(u))
+      return std::numeric_limits<double>::infinity();
+    Vertex_vector error(u.size(), 0.);
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      if(!t_.is_isolated_vertex(v) && !t_.is_border_vertex(v))
+        error[v] = energy.angle_sums()[v] - 2 * Number_constants<double>::pi();
+    for(std::size_t i = 0; i < result_.cones.size(); ++i)
+      error[result_.cones[i]] = energy.angle_sums()[result_.cones[i]] - result_.angles[i].template radians<double>();
+    return largest_entry(error);
+  }
+
+  // Where nothing determines the scale, it is the one with which the largest |u| is least; or the one for which the mean of u is 0.
+  void centre()
+  {
+    if(number_of_borders() > 0 || !is_success(result_.metric.status))
+      return;
+    const Vertex_vector u = found_u();
+    const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U;
+    double least = std::numeric_limits<double>::infinity(), most = -least, mean = 0;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+    {
+      if(t_.is_isolated_vertex(v))
+        continue;
+      least = (std::min)(least, u[v]);
+      most = (std::max)(most, u[v]);
+      mean += area_[v] * u[v];
+    }
+    typedef typename Conformal_metric<NT>::Wide_number Wide_number;
+    const double shift = is_mean ? mean : (least + most) / 2;
+    const Wide_number factor(std::exp(-shift / 2));
+    for(NT& x : result_.metric.log_scale_factors)
+      x = NT(x - NT(shift));
+    for(Wide_number& x : result_.metric.scale_factors)
+      x = x * factor;
+    measure();
   }
 
   // ---- Placement
@@ -251,8 +442,10 @@ private:
       return false;
     if(options_.number_of_cones > 0 && p.cones.size() >= options_.number_of_cones)
       return true;
-    return has_bound() && (!(options_.maximum_u > 0) || largest_entry(p.u) <= options_.maximum_u)
-                       && (!(options_.maximum_area_distortion > 0) || area_distortion_of_faces(t_, p.u) <= options_.maximum_area_distortion);
+    return options_.has_bound()
+        && (!(options_.maximum_u > 0) || largest_entry(p.u) <= options_.maximum_u)
+        && (!(options_.maximum_area_distortion > 0) || area_distortion_of_faces(t_, p.u) <= options_.maximum_area_distortion)
+        && (!(options_.maximum_root_mean_square > 0) || root_mean_square(area_, p.u) <= options_.maximum_root_mean_square);
   }
 
   Placement placed(Search& search)
@@ -278,7 +471,21 @@ private:
   bool is_bound_missed() const
   {
     return options_.number_of_cones == 0 && is_success(result_.metric.status) && result_.status == Status::OK
-        && (misses_maximum_u() || misses_maximum_area_distortion());
+        && misses_a_bound();
+  }
+
+  // As in section 5.1: free cones have u = 0.
+  void place_with_zero_u()
+  {
+    result_ = Cone_placement<NT>();
+    Search search(t_, pieces_.components[0], std::move(search_factorization_), options_.measure);
+    if(!search.factorize())
+      return refuse(Status::SINGULAR_PROBLEM);
+    Placement p = placed(search);
+    conclude(search, p);
+    for(int round = 0; round < most_additions && is_bound_missed() && p.cones.size() < most_cones_for_bound && put_another(search, p); ++round)
+      conclude(search, p);
+    result_.number_of_solves += search.number_of_solves();
   }
 
   // Takes the cones of `p` for the result, and finds its metric.
@@ -466,28 +673,19 @@ private:
   const Make_factorization make_factorization_;
   std::unique_ptr<Factorization> search_factorization_;
   const Surface_components pieces_;
+  const Eigen::VectorXd area_; // by vertex, of one whole
   Cone_placement<NT> result_;
 };
 
 template <typename NT>
 Cone_placement<NT> Cone_placer<NT>::run()
 {
-  if(!check())
-    return std::move(result_);
-  Search search(t_, pieces_.components[0], std::move(search_factorization_), options_.measure);
-  if(!check_number(search))
-    return std::move(result_);
-  if(!search.factorize())
+  if(check() && check_number())
   {
-    refuse(Status::SINGULAR_PROBLEM);
-    return std::move(result_);
+    if(!are_angles_chosen() || !choose())
+      place_with_zero_u();
+    finish();
   }
-  Placement p = placed(search);
-  conclude(search, p);
-  for(int round = 0; round < most_additions && is_bound_missed() && p.cones.size() < most_cones_for_bound && put_another(search, p); ++round)
-    conclude(search, p);
-  result_.number_of_solves = search.number_of_solves();
-  finish();
   return std::move(result_);
 }
 

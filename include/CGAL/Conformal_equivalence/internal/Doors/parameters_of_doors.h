@@ -65,6 +65,7 @@ typedef Parameters_of<Common_parameters,
                       Parameter_list<internal_np::conformal_number_of_cones_t, internal_np::conformal_maximum_u_t,
                                      internal_np::conformal_maximum_area_distortion_t, internal_np::conformal_angle_quantum_t,
                                      internal_np::conformal_cone_measure_t, internal_np::conformal_number_of_sweeps_t,
+                                     internal_np::conformal_cone_angles_t, internal_np::conformal_maximum_root_mean_square_t,
                                      internal_np::conformal_border_edges_t,
                                      internal_np::conformal_u_t> > Parameters_of_place_cones;
 

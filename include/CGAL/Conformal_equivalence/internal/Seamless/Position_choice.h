@@ -16,7 +16,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_POSITION_CHOICE_H
 
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
+#include <CGAL/Conformal_equivalence/internal/Lattices/closest_vector.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/position_lattice.h>
 #include <CGAL/Conformal_equivalence/internal/stable_order.h>
 

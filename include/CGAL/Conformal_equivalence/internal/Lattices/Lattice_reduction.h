@@ -8,8 +8,8 @@
 // Gram-Schmidt coefficients are floating-point numbers, computed from the Gram matrix as by Nguyen and Stehle,
 // "Floating-point LLL revisited", 2005; the transformation is exact.
 
-#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_LATTICE_REDUCTION_H
-#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_LATTICE_REDUCTION_H
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LATTICES_LATTICE_REDUCTION_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LATTICES_LATTICE_REDUCTION_H
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 
@@ -279,4 +279,4 @@ private:
 } // namespace Conformal_equivalence
 } // namespace CGAL
 
-#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_LATTICE_REDUCTION_H
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LATTICES_LATTICE_REDUCTION_H

@@ -16,11 +16,11 @@
 // - Enumeration of all points that are as near, in the order of Schnorr and Euchner, gives the nearest: Agrell, Eriksson,
 //   Vardy and Zeger, "Closest point search in lattices", 2002. Its time grows exponentially with the dimension.
 
-#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_CLOSEST_VECTOR_H
-#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_CLOSEST_VECTOR_H
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LATTICES_CLOSEST_VECTOR_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LATTICES_CLOSEST_VECTOR_H
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/Lattice_reduction.h>
+#include <CGAL/Conformal_equivalence/internal/Lattices/Lattice_reduction.h>
 
 #include <Eigen/Core>
 
@@ -495,4 +495,4 @@ private:
 } // namespace Conformal_equivalence
 } // namespace CGAL
 
-#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_CLOSEST_VECTOR_H
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_LATTICES_CLOSEST_VECTOR_H

@@ -1,0 +1,315 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Cones of which places and angles are chosen: as many as are asked for, or as it takes to meet bounds, as far as the linear model foresees
+// (Cone_model.h). First for the root mean square of u, which has one best choice of angles; from there the largest |u| is approached by p-norms.
+// The metric with these cones is found by others; the model can be made anew there.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_CHOOSER_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_CHOOSER_H
+
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_bound.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_fit.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_model.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_options.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Quantized_cones.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Sparse_cones.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/area_distortion.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/u_measures.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/options.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+template <typename NT>
+class Cone_chooser
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<NT> Triangulation;
+
+public:
+  // Keeps references.
+  Cone_chooser(const Triangulation& t, const Surface_components::Component& component, const Cone_options& options,
+               const Factorization_maker& make_factorization, const Any_visitor& visitor = Any_visitor())
+    : t_(t), options_(options), make_factorization_(make_factorization), visitor_(visitor),
+      euler_characteristic_(double(component.euler_characteristic())),
+      is_closed_(component.number_of_borders == 0), area_(vertex_areas(t)), width_(std::exp(log_sum(log_areas(t)) / 2))
+  {}
+
+  // Makes the model of the surface given. Returns whether that is possible.
+  bool begin()
+  {
+    Triangulation delaunay = t_;
+    std::vector<Index> broken_faces;
+    make_intrinsic_delaunay(delaunay, broken_faces, [](Index) {});
+    return make_model(std::move(delaunay), Vertex_vector(t_.number_of_vertices(), 0.));
+  }
+
+  // The same of a metric that was found; the double of a surface is none.
+  bool go_on_from(const Conformal_metric<NT>& metric)
+  {
+    if(metric.is_doubled)
+      return false;
+    Vertex_vector u;
+    for(const NT& x : metric.log_scale_factors)
+      u.push_back(static_cast<double>(x));
+    return make_model(metric.is_retriangulated() ? metric.triangulation : t_, std::move(u));
+  }
+
+  const std::vector<Index>& places() const { return model_->places(); }
+  std::size_t number_of_solves() const { return number_of_solves_ + (model_ ? model_->number_of_solves() : 0); }
+
+  // No cones, if the surface can do without.
+  bool without_cones(Curved_cones& s)
+  {
+    if(fit_->are_too_few(0))
+      return false;
+    fit_->fit(s);
+    return true;
+  }
+
+  // As many cones as are asked for; or until the bounds are met in the model, but no more than `most`.
+  Curved_cones placed(std::size_t most)
+  {
+    Curved_cones s;
+    most = (std::min)(most, places().size());
+    if(options_.number_of_cones > 0)
+      most = (std::min)(most, options_.number_of_cones);
+    fit_->set_exponent(2);
+    fit_->fit(s);
+    for(std::size_t next_look = 0; s.cones.size() < most && visitor_.go_further(); )
+    {
+      if(s.cones.size() >= next_look && options_.has_bound() && !fit_->are_too_few(s.cones.size()))
+      {
+        Curved_cones trial = s;
+        if(is_near_bounds(trial) && (improve(trial, true), meets_bounds(trial)))
+          return trial;
+        next_look = s.cones.size() + 1 + s.cones.size() / 8; // a look costs as much as some cones
+      }
+      fit_->set_exponent(2);
+      if(!search_->add(s))
+        break;
+      search_->slide(s, 2);
+    }
+    improve(s, true);
+    return s;
+  }
+
+  // One more cone. Returns whether there is a place.
+  bool add(Curved_cones& s)
+  {
+    fit_->set_exponent(2);
+    fit_->fit(s);
+    if(!search_->add(s))
+      return false;
+    improve(s, false);
+    return true;
+  }
+
+  // Moves the cones, and changes their angles, as long as that makes it better; `thoroughly`: some are put elsewhere, too.
+  void improve(Curved_cones& s, bool thoroughly)
+  {
+    if(options_.measure != Cone_measure::ROOT_MEAN_SQUARE_U)
+      improve_maximum(s, thoroughly);
+    else
+      improve_mean(s, thoroughly);
+    model_->sharpen(s.cones);
+    Curved_cones anew = s;
+    anew.curvatures.resize(0); // what was found with blunt columns may be no good place to begin
+    fit_->fit(anew);
+    fit_->fit(s);
+    if(anew.value < s.value)
+      s = std::move(anew);
+  }
+
+  // Makes the curvatures multiples of 2 pi / n, and moves the cones with these. Returns whether there are such curvatures.
+  bool quantize(Curved_cones& s, long n)
+  {
+    return quantized(n).quantize(s, (std::max)(s.cones.size(), (std::min)(options_.number_of_cones, places().size())));
+  }
+
+  // The same with multiples already.
+  void improve_quantized(Curved_cones& s, long n) { quantized(n).improve(s, s.cones.size() + s.flattened.size()); }
+
+  // The best curvatures for the places of `s`.
+  Eigen::VectorXd best_curvatures(const Curved_cones& s)
+  {
+    Curved_cones best = s;
+    best.curvatures.resize(0);
+    model_->sharpen(best.cones);
+    fit_->fit(best);
+    return best.curvatures;
+  }
+
+  // What is aimed at, as the model foresees it.
+  double measure(const Curved_cones& s) const { return measure_of(options_.measure, u_of(s)); }
+
+  // u of the surface
+  Vertex_vector u_of(const Curved_cones& s) const
+  {
+    Vertex_vector u(s.u.data(), s.u.data() + s.u.size());
+    if(!is_closed_)
+      for(double& x : u)
+        x += s.shift;
+    return u;
+  }
+
+  // No cones the sizes of whose curvatures sum up to no more than those of `s` have a root mean square of u below this, to first order.
+  double lower_bound(const Curved_cones& s) { return Cone_bound<NT>(*model_, area_)(s); }
+
+private:
+  static constexpr std::size_t most_vertices_of_long_search = 20000; // where a solution costs little
+  static constexpr int largest_exponent = 128; // a million vertices: n^{1/128} = 1.11, and far less where |u| is nearly equal at many
+
+  bool make_model(Triangulation t, Vertex_vector u)
+  {
+    if(model_)
+      number_of_solves_ += model_->number_of_solves();
+    search_.reset();
+    fit_.reset();
+    model_ = std::make_unique<Cone_model<NT> >(std::move(t), std::move(u), euler_characteristic_, make_factorization_());
+    if(!model_->factorize())
+      return false;
+    const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U;
+    fit_ = std::make_unique<Cone_fit<NT> >(*model_, is_mean ? area_ : weights_for_maximum(), options_.measure != Cone_measure::MAXIMUM_U);
+    search_ = std::make_unique<Sparse_cones<NT> >(*model_, *fit_, width_);
+    return true;
+  }
+
+  // Areas are what counts for means; a maximum is to be seen at small triangles, too.
+  Eigen::VectorXd weights_for_maximum() const
+  {
+    Eigen::VectorXd result = area_;
+    std::size_t n = 0;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      n += t_.is_isolated_vertex(v) ? 0 : 1;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      if(!t_.is_isolated_vertex(v))
+        result[v] = (result[v] + 1 / double(n)) / 2;
+    return result;
+  }
+
+  Quantized_cones<NT> quantized(long n)
+  {
+    return Quantized_cones<NT>(*model_, *fit_, *search_, [this](const Curved_cones& s) { return measure(s); }, n,
+                               options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U ? 2 : largest_exponent);
+  }
+
+  void improve_mean(Curved_cones& s, bool thoroughly)
+  {
+    fit_->set_exponent(2);
+    fit_->fit(s);
+    search_->slide(s, 10);
+    if(thoroughly && search_->exchange(s, 2 * int(s.cones.size())))
+      search_->slide(s, 10);
+  }
+
+  // From where the mean is small, and from where it is smaller yet: either may be the better place to begin.
+  void improve_maximum(Curved_cones& s, bool thoroughly)
+  {
+    Curved_cones other = s;
+    const bool is_small = places().size() < most_vertices_of_long_search;
+    if(thoroughly)
+    {
+      fit_->set_exponent(2);
+      fit_->fit(s);
+      search_->slide(s, 10);
+      other = s;
+      if(is_small)
+        improve_mean(other, true);
+    }
+    const bool are_different = other.cones != s.cones;
+    approach_maximum(s, thoroughly);
+    if(!thoroughly || !are_different)
+      return;
+    approach_maximum(other, true);
+    if(measure(other) < measure(s))
+      s = std::move(other);
+  }
+
+  // By p-norms of larger and larger p. The best on the way is kept.
+  void approach_maximum(Curved_cones& s, bool thoroughly)
+  {
+    Curved_cones best;
+    double least = std::numeric_limits<double>::infinity();
+    const bool is_small = places().size() < most_vertices_of_long_search;
+    for(int p = !thoroughly ? 16 : is_small ? 4 : 8; p <= largest_exponent && visitor_.go_further(); p *= is_small ? 2 : 4)
+    {
+      fit_->set_exponent(p);
+      fit_->fit(s);
+      search_->slide(s, is_small ? 6 : 3);
+      if(thoroughly && p == 8)
+        search_->exchange(s, is_small ? 3 : 1);
+      const double now = measure(s);
+      if(now < least)
+      {
+        least = now;
+        best = s;
+      }
+    }
+    if(!best.cones.empty())
+      s = std::move(best);
+  }
+
+  // Is it worth while to look?
+  bool is_near_bounds(const Curved_cones& s) const
+  {
+    const Vertex_vector u = u_of(s);
+    return (!(options_.maximum_u > 0) || root_mean_square(area_, u) <= options_.maximum_u)
+        && (!(options_.maximum_area_distortion > 1) || 2 * root_mean_square(area_, u) <= std::log(options_.maximum_area_distortion))
+        && (!(options_.maximum_root_mean_square > 0) || root_mean_square(area_, u) <= 1.1 * options_.maximum_root_mean_square);
+  }
+
+  bool meets_bounds(const Curved_cones& s) const
+  {
+    const Vertex_vector u = u_of(s);
+    return (!(options_.maximum_u > 0) || measure_of(Cone_measure::MAXIMUM_U, u) <= options_.maximum_u)
+        && (!(options_.maximum_area_distortion > 0) || measure_of(Cone_measure::AREA_DISTORTION, u) <= options_.maximum_area_distortion)
+        && (!(options_.maximum_root_mean_square > 0)
+            || measure_of(Cone_measure::ROOT_MEAN_SQUARE_U, u) <= options_.maximum_root_mean_square);
+  }
+
+  double measure_of(Cone_measure what, const Vertex_vector& u) const
+  {
+    return what == Cone_measure::ROOT_MEAN_SQUARE_U ? root_mean_square(area_, u)
+         : what == Cone_measure::AREA_DISTORTION    ? area_distortion_of_vertices(area_, u)
+                                                    : largest_entry(u);
+  }
+
+  const Triangulation& t_;
+  const Cone_options options_;
+  const Factorization_maker make_factorization_;
+  const Any_visitor visitor_; // may end every search: what has been found counts
+  const double euler_characteristic_;
+  const bool is_closed_;
+  const Eigen::VectorXd area_; // by vertex, of one whole
+  const double width_;         // the square root of the area of the surface
+  std::unique_ptr<Cone_model<NT> > model_;
+  std::unique_ptr<Cone_fit<NT> > fit_;
+  std::unique_ptr<Sparse_cones<NT> > search_;
+  std::size_t number_of_solves_ = 0;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_CHOOSER_H
