@@ -55,6 +55,22 @@ public:
       add(t, reduced(t, loop));
   }
 
+  // Without the pieces that go there and back.
+  template <typename NT>
+  static Loop reduced(const Intrinsic_triangulation<NT>& t, const Loop& loop)
+  {
+    Loop result;
+    for(Index h : loop)
+      if(!result.empty() && t.twin(h) == result.back())
+        result.pop_back();
+      else
+        result.push_back(h);
+    std::size_t first = 0, last = result.size();
+    while(last - first > 1 && t.twin(result[first]) == result[last - 1])
+      ++first, --last;
+    return Loop(result.begin() + std::ptrdiff_t(first), result.begin() + std::ptrdiff_t(last));
+  }
+
   std::size_t size() const { return first_.size(); }
 
   // Linear in its length.
@@ -105,21 +121,6 @@ private:
       c = crossings_[c].next;
     }
     while(c != first_[i]);
-  }
-
-  template <typename NT>
-  static Loop reduced(const Intrinsic_triangulation<NT>& t, const Loop& loop)
-  {
-    Loop result;
-    for(Index h : loop)
-      if(!result.empty() && t.twin(h) == result.back())
-        result.pop_back();
-      else
-        result.push_back(h);
-    std::size_t first = 0, last = result.size();
-    while(last - first > 1 && t.twin(result[first]) == result[last - 1])
-      ++first, --last;
-    return Loop(result.begin() + std::ptrdiff_t(first), result.begin() + std::ptrdiff_t(last));
   }
 
   template <typename NT>

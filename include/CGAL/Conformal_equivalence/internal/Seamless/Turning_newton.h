@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Dual_loops.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Turning_equations.h>
@@ -34,7 +35,7 @@ namespace Conformal_equivalence {
 namespace internal {
 
 // A metric whose triangulation is on its way, with the loops on it. The status is `OK`, `CONVERGED_TO_ROUNDING`, `ITERATIONS_EXHAUSTED`,
-// `SINGULAR_PROBLEM`.
+// `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`.
 struct Turning_metric : public Outcome
 {
   typedef std::uint32_t Index;
@@ -54,6 +55,7 @@ struct Turning_newton_options
   double tolerance = 1e-12;           // radians
   std::size_t maximum_number_of_steps = 200;
   double epsilon = Turning_equations::default_epsilon;
+  Any_visitor visitor;                // is told the steps and may stop them
 };
 
 // `NT` is `double`: it is a template so that it can be compiled once (compiled.h).
@@ -105,6 +107,12 @@ private:
     metric_.residuals.push_back(largest(residual));
     while(metric_.status == Status::OK && metric_.residual() > options_.tolerance)
     {
+      options_.visitor.on_iteration(metric_.number_of_steps, metric_.residual());
+      if(!options_.visitor.go_further())
+      {
+        metric_.status = Status::STOPPED_BY_VISITOR;
+        return;
+      }
       if(metric_.number_of_steps == options_.maximum_number_of_steps)
         return give_up();
       Turning_equations equations(metric_.triangulation, metric_.loops, rows_, Corner_angles(metric_.triangulation), options_.epsilon);
