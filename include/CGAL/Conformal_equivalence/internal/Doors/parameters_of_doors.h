@@ -77,6 +77,8 @@ typedef Parameters_of<Parameters_of_place_cones, Condition_parameters, Cut_param
 typedef Parameter_list<internal_np::conformal_weight_t, internal_np::conformal_edge_is_seam_t,
                        internal_np::conformal_input_face_t> Parameters_of_refined_mesh;
 
+typedef Parameter_list<internal_np::conformal_edge_is_seam_t, internal_np::conformal_input_face_t> Parameters_of_refined_seamless_mesh;
+
 typedef Parameter_list<internal_np::conformal_weight_t, internal_np::conformal_input_face_t> Parameters_of_refined_sphere;
 
 typedef Parameter_list<internal_np::conformal_weight_t, internal_np::conformal_edge_is_seam_t,

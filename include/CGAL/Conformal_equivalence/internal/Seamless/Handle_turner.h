@@ -6,9 +6,11 @@
 // handles turn. So the class is left, as little as it takes (Turning_equations.h).
 //
 // How the handles shall turn is chosen among all that is allowed: the integers m that minimize (m q - kappa)^T G (m q - kappa), where kappa are the
-// turnings of a basis in the metric given, q = 2 pi / n, and G is the form of the deformations that change them, to first order. This is a
-// closest vector of a lattice (closest_vector.h), and does not depend on the basis, as rounding one by one would. The user may
-// prescribe turnings of some loops, modulo n: each is a congruence for the m (congruent_vectors.h).
+// turnings of a basis in the metric given, q = 2 pi / n. This is a closest vector of a lattice (closest_vector.h). With the form F of the
+// deformations that change the turnings, to first order, G is F + diag F: F alone lets one loop turn far, if that makes others turn as they should,
+// but what is said to first order does not hold so far; its diagonal alone would be rounding one by one. Where Newton's method does not find a
+// metric, the next nearest are tried. The user may prescribe turnings of some loops, modulo n: each is a congruence for the m
+// (congruent_vectors.h).
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_HANDLE_TURNER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_HANDLE_TURNER_H
@@ -20,6 +22,7 @@
 #include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Dual_loops.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Quantized_cone.h>
@@ -46,6 +49,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -66,6 +70,7 @@ struct Turned_handles : public Outcome
   std::vector<Dual_loops::Loop> loops;     // a basis of the first homology, on the triangulation given
   std::vector<double> conformal_turnings;  // by loop (radians): before
   std::vector<long> quanta;                // by loop: after, in units of 2 pi / n
+  std::vector<std::vector<long> > others;  // what is to be tried next, in order
   bool is_nearest = true;                  // whether they are proven to be those that take the least deformation, to first order
   Surface_existence existence = Surface_existence::PROVEN;
   double mean_departure = 0;               // root of the mean square of the changes of the logarithms of length cross ratios
@@ -251,7 +256,7 @@ private:
   // Takes the nearest that is admitted and exists.
   void choose_among(const Congruent_vectors& admitted, const std::vector<double>& turning, const Dual_loops& loops, Turned_handles& result) const
   {
-    const std::size_t most = 200, most_nodes = 200000; // some tenths of a second, and far more than are ever refused in a row
+    const std::size_t most = 32, most_nodes = 200000; // some tenths of a second, and more than are ever refused in a row
     const Eigen::Index dimension = Eigen::Index(turning.size());
     Eigen::MatrixXd basis(dimension, dimension);
     Eigen::VectorXd target(dimension);
@@ -273,29 +278,33 @@ private:
       for(std::size_t j = 0; j < v.coefficients.size(); ++j)
         for(std::size_t i = 0; i < quanta.size(); ++i)
           quanta[i] += long(v.coefficients[j] * admitted.basis[j][i]);
-      if(take(std::move(quanta), result))
+      if(internal::existence(signature(quanta)) == Surface_existence::IMPOSSIBLE)
+        continue;
+      if(bool(result))
+        result.others.push_back(std::move(quanta));
+      else
       {
+        take(std::move(quanta), result);
         result.is_nearest = v.is_closest;
-        return;
       }
     }
   }
 
-  // Unless no surface has them.
-  bool take(std::vector<long> quanta, Turned_handles& result) const
+  void take(std::vector<long> quanta, Turned_handles& result) const
   {
-    result.existence = existence(signature(quanta));
-    if(result.existence == Surface_existence::IMPOSSIBLE)
-      return false;
+    result.existence = internal::existence(signature(quanta));
     result.quanta = std::move(quanta);
     result.status = Status::OK;
-    return true;
   }
 
-  // x^T G x is about what it takes to make the loops turn by x more, in units of the quantum.
-  Eigen::MatrixXd deformation_form(const Dual_loops& loops) const
+  // x^T G x is about what it takes to make the loops turn by x more, in units of the quantum. On a Delaunay triangulation: the sharp angles of
+  // others promise more than they can give.
+  Eigen::MatrixXd deformation_form(Dual_loops loops) const
   {
-    const Triangulation s = scaled();
+    Triangulation s = scaled();
+    std::vector<Index> all(s.number_of_edges());
+    std::iota(all.begin(), all.end(), Index(0));
+    Delaunay_flipper<NT>(s).flip_to_delaunay(std::vector<double>(), std::move(all), Flip_rule::PTOLEMY, [&](Index e) { loops.flip(s, e); });
     const Turning_rows rows(s);
     const Eigen::Index n = Eigen::Index(loops.size()), first = rows.number_of_vertices();
     Turning_equations equations(s, loops, rows, Corner_angles(s));
@@ -308,7 +317,9 @@ private:
       right[first + j] = quantum();
       result.col(j) = -quantum() * equations.multipliers(right).tail(n);
     }
-    return (result + result.transpose()) / 2;
+    result = (result + result.transpose()).eval() / 2;
+    result.diagonal() *= 2;
+    return result;
   }
 
   // ---- The metric found
@@ -320,6 +331,40 @@ private:
       result.angle_sum.push_back(conditions_.angle_sum(v).template radians<double>());
     for(long q : quanta)
       result.turning.push_back(double(q) * quantum());
+    return result;
+  }
+
+  // Whether they are already.
+  bool are_turned(Turned_handles& handles) const
+  {
+    const double rounding = 1e-9; // of turnings in a metric of `double`s, amply
+    const Turning_targets target = targets(handles.quanta);
+    handles.residual = 0;
+    for(std::size_t i = 0; i < target.turning.size(); ++i)
+      handles.residual = (std::max)(handles.residual, std::abs(handles.conformal_turnings[i] - target.turning[i]));
+    return handles.residual < rounding;
+  }
+
+  // For the nearest turnings; if the method is not on its way to an end soon, for others, and what is found is put into `handles`.
+  Turning_metric find(Turned_handles& handles) const
+  {
+    const std::size_t most_tried = 8, soon = 60; // steps; from some it takes 20, and more than 40 hardly ever
+    Turning_newton_options options;
+    options.tolerance = options_.gradient_tolerance;
+    options.maximum_number_of_steps = (std::min)(options_.number_of_iterations, soon);
+    options.visitor = options_.visitor;
+    const Dual_loops loops = carried(handles.loops);
+    Turning_metric result = Turning_newton<NT>(scaled(), loops, targets(handles.quanta), options).run();
+    for(std::size_t i = 0; i < handles.others.size() && i < most_tried && result.status == Status::ITERATIONS_EXHAUSTED; ++i)
+    {
+      handles.number_of_steps += result.number_of_steps;
+      Turning_metric next = Turning_newton<NT>(scaled(), loops, targets(handles.others[i]), options).run();
+      if(next.status == Status::ITERATIONS_EXHAUSTED)
+        continue;
+      take(handles.others[i], handles);
+      handles.is_nearest = false;
+      result = std::move(next);
+    }
     return result;
   }
 
@@ -407,20 +452,11 @@ Turned_handles Handle_turner<NT>::choose() const
 template <typename NT>
 Conformal_metric<NT> Handle_turner<NT>::turn(Turned_handles& handles, std::unique_ptr<Factorization> factorization) const
 {
-  const double rounding = 1e-9; // of the turnings in a metric of `double`s, amply: what is nearer is as prescribed already
-  const Turning_targets target = targets(handles.quanta);
-  for(std::size_t i = 0; i < target.turning.size(); ++i)
-    handles.residual = (std::max)(handles.residual, std::abs(handles.conformal_turnings[i] - target.turning[i]));
-  if(handles.residual < rounding)
+  if(are_turned(handles))
     return metric_;
-
-  Turning_newton_options options;
-  options.tolerance = options_.gradient_tolerance;
-  options.maximum_number_of_steps = options_.number_of_iterations;
-  options.visitor = options_.visitor;
-  Turning_metric found = Turning_newton<NT>(scaled(), carried(handles.loops), target, options).run();
+  Turning_metric found = find(handles);
   handles.set_outcome(found);
-  handles.number_of_steps = found.number_of_steps;
+  handles.number_of_steps += found.number_of_steps;
   handles.number_of_flips = found.flips.size();
   handles.residual = found.residual();
   Metric result;
@@ -450,6 +486,7 @@ Conformal_metric<NT> Handle_turner<NT>::turn(Turned_handles& handles, std::uniqu
     lengths.push_back(result.scaled_length(result.triangulation.edge_halfedge(e)));
   const Triangulation s = result.triangulation.with_lengths(std::move(lengths));
   const std::vector<double> turned = turnings(s, found.loops, Corner_angles(s));
+  const Turning_targets target = targets(handles.quanta);
   handles.residual = 0;
   for(std::size_t i = 0; i < turned.size(); ++i)
     handles.residual = (std::max)(handles.residual, std::abs(turned[i] - target.turning[i]));

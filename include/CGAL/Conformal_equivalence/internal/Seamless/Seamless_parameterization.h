@@ -10,8 +10,11 @@
 #include <CGAL/Conformal_equivalence/Cone_placement.h>
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/report_cones.h>
@@ -36,7 +39,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <new>
 #include <utility>
 #include <vector>
@@ -87,6 +89,22 @@ public:
   template <typename NamedParameters>
   void run(const NamedParameters& np)
   {
+    find_cut_metric(np);
+    flattening.lay_out(); // what is judged is the layout that is rectified
+    flattening.tell_what_was_found();
+    if(!bool(flattening.report))
+      return;
+    const std::vector<Quantized_cone> cones = quantized_cones();
+    take(rectified(flattening.mesh.triangulation, flattening.cut, flattening.layout, cones, np));
+    finish();
+  }
+
+  // ---- Steps
+
+  // The metric, and the cut.
+  template <typename NamedParameters>
+  void find_cut_metric(const NamedParameters& np)
+  {
     flattening.import_lengths(np);
     run_step(flattening.report, [&]
     {
@@ -95,10 +113,50 @@ public:
     });
     run_step(flattening.report, [&] { turn_handles(np); });
     flattening.find_cut();
-    flattening.lay_out(); // what is judged is the layout that is rectified
-    flattening.tell_what_was_found();
-    if(bool(flattening.report))
-      rectify(make_factorization(solver_traits_of(np)));
+  }
+
+  std::vector<Quantized_cone> quantized_cones() const
+  {
+    const long unit = 2 * Exact_angle<double>::units_of_pi / symmetry();
+    std::vector<Quantized_cone> result;
+    for(Index v : flattening.cones())
+      result.push_back({v, flattening.conditions().angle_sum(v).units / unit});
+    return result;
+  }
+
+  // What becomes of a layout, of the mesh or of a refinement of it.
+  template <typename NamedParameters>
+  Rectified_layout rectified(const Intrinsic_triangulation<double>& t, const Cut_graph& cut, const Layout<double>& layout,
+                             const std::vector<Quantized_cone>& cones, const NamedParameters& np)
+  {
+    Rectified_layout result;
+    const Stopwatch stopwatch;
+    try
+    {
+      Rectification<double> rectification(t, cut, layout, cones, Texture_lattice(symmetry()), options_.rectification,
+                                          make_factorization(solver_traits_of(np)));
+      result = std::move(rectification.run());
+    }
+    catch(const std::bad_alloc&)
+    {
+      result = Rectified_layout();
+      result.status = Status::OUT_OF_MEMORY;
+    }
+    flattening.report.statistics.seconds.layout += stopwatch.seconds();
+    return result;
+  }
+
+  // Tells what became of the placement of cones.
+  void finish()
+  {
+    Report& report = flattening.report;
+    if(are_cones_placed_)
+      report_rounding(flattening.mesh, placement_, report);
+    if(bool(report) && placement_.status == Status::BOUND_NOT_MET)
+    {
+      report.status = placement_.status;
+      report.amount = placement_.amount;
+    }
   }
 
 private:
@@ -262,40 +320,6 @@ private:
   }
 
   // ---- Rectification
-
-  std::vector<Quantized_cone> quantized_cones() const
-  {
-    const long unit = 2 * Exact_angle<double>::units_of_pi / symmetry();
-    std::vector<Quantized_cone> result;
-    for(Index v : flattening.cones())
-      result.push_back({v, flattening.conditions().angle_sum(v).units / unit});
-    return result;
-  }
-
-  void rectify(std::unique_ptr<Factorization> factorization)
-  {
-    Report& report = flattening.report;
-    if(are_cones_placed_)
-      report_rounding(flattening.mesh, placement_, report);
-    const Stopwatch stopwatch;
-    try
-    {
-      const std::vector<Quantized_cone> cones = quantized_cones();
-      Rectification<double> rectification(flattening.mesh.triangulation, flattening.cut, flattening.layout, cones, Texture_lattice(symmetry()),
-                                          options_.rectification, std::move(factorization));
-      take(std::move(rectification.run()));
-    }
-    catch(const std::bad_alloc&)
-    {
-      report.status = Status::OUT_OF_MEMORY;
-    }
-    report.statistics.seconds.layout += stopwatch.seconds();
-    if(bool(report) && placement_.status == Status::BOUND_NOT_MET)
-    {
-      report.status = placement_.status;
-      report.amount = placement_.amount;
-    }
-  }
 
   void take(Rectified_layout rectified)
   {

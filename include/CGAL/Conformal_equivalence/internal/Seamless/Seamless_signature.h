@@ -15,7 +15,8 @@
 //             and pseudo-Anosov diffeomorphisms");
 //
 // on spheres by Troyanov, 1986; for d > 2 and genus above 1 there is much (Gendron and Tahar, 2022), but not all of it has been verified here: then a
-// surface is expected. What is known hangs on the group alone; which loops turn by how much may in addition be tied by the parity of a spin structure.
+// surface is expected. What is known hangs on the group alone; which loops turn by how much may in addition be tied by the parity of a spin
+// structure.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_SIGNATURE_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_SEAMLESS_SIGNATURE_H

@@ -6,7 +6,8 @@
 // In Penner coordinates lambda = 2 log l (Penner, "The decorated Teichmueller space of punctured surfaces", 1987) the angle opposite to the edge
 // i of a triangle ijk has the derivatives
 //
-//     d alpha_i / d lambda_i = (cot alpha_j + cot alpha_k) / 2,    d alpha_i / d lambda_j = -cot alpha_k / 2,    d alpha_i / d lambda_k = -cot alpha_j / 2.
+//     d alpha_i / d lambda_i = (cot alpha_j + cot alpha_k) / 2,
+//     d alpha_i / d lambda_j = -cot alpha_k / 2,    d alpha_i / d lambda_k = -cot alpha_j / 2.
 //
 // There are |V| - 1 + 2 g equations and |E| = 3 (|V| - 2 + 2 g) unknowns. Of all changes of lambda that solve the linearized equations
 // J d = -c we want the one that leaves the discrete conformal class the least: it minimizes
