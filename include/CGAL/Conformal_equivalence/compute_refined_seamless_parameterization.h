@@ -43,9 +43,9 @@ namespace Conformal_equivalence {
 /// \param np_refined an optional sequence of \ref bgl_namedparameters "Named Parameters" for `refined`: `vertex_point_map` and `edge_is_seam_map` as
 ///        in `make_refined_mesh()`, `input_face_map` as in `flatten_refined()`
 ///
-/// \return the report of `compute_seamless_parameterization()`, with transitions across the edges of `tm`: every part of an edge has that of the edge.
-///         Meshes and maps are written iff it is a success, or `BOUND_NOT_MET`. Statuses are the same, with faces of `tm` that have inverted parts, and
-///         `NOT_REPRESENTABLE` if `refined` cannot hold the triangles, `TOO_MANY_CROSSINGS`.
+/// \return the report of `compute_seamless_parameterization()`, with transitions across the edges of `tm`: every part of an edge has that of the
+///         edge. Meshes and maps are written iff it is a success, or `BOUND_NOT_MET`. Statuses are the same, with faces of `tm` that have inverted
+///         parts, and `NOT_REPRESENTABLE` if `refined` cannot hold the triangles, `TOO_MANY_CROSSINGS`.
 ///
 /// Time: that of `compute_seamless_parameterization()` on the mesh that is made.
 ///

@@ -63,9 +63,9 @@ struct Loop_turning
 
 /// \ingroup PkgConformalEquivalenceDoors
 ///
-/// makes a seamless parameterization of a disk or of a closed surface: a layout with cones at points of a lattice, in which the two sides of every seam edge
-/// differ by a symmetry of the lattice. A checkerboard pattern, or any other texture with the symmetries of the lattice, then covers the surface
-/// without a visible seam; so do the tiles of a quadrangulation.
+/// makes a seamless parameterization of a disk or of a closed surface: a layout with cones at points of a lattice, in which the two sides of
+/// every seam edge differ by a symmetry of the lattice. A checkerboard pattern, or any other texture with the symmetries of the lattice, then
+/// covers the surface without a visible seam; so do the tiles of a quadrangulation.
 ///
 ///  - *Cones* have multiples of the `angle_quantum` 2 pi / n for their angle sums. They place themselves, see `place_cones()`, or are given.
 ///  - The conformally equivalent flat metric is laid out, as by `flatten()`. The motions across the seam are rotations by multiples of 2 pi / n, with
