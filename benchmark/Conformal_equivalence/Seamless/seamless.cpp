@@ -93,7 +93,8 @@ void print_row(const std::string& name, std::size_t cones_of_handle, std::size_t
   const bool is_found = bool(chosen) && bool(turner.turn(chosen, CE::internal::make_factorization<CE::Default_solver_traits>()));
   const double seconds = watch.seconds();
   std::cout << "| " << name.substr(name.find_last_of('/') + 1) << " | " << p.t.number_of_vertices() << " | " << p.genus << " | "
-            << p.cones.size() << " | " << p.metric.statistics.number_of_iterations << " | " << p.seconds << " | " << (is_found ? "yes" : "no") << " | "
+            << p.cones.size() << " | " << p.metric.statistics.number_of_iterations << " | " << p.seconds << " | "
+            << (is_found ? "yes" : "no") << " | "
             << chosen.number_of_steps << " | " << chosen.number_of_flips << " | " << seconds << " | " << seconds / p.seconds << " | "
             << chosen.residual << " | " << chosen.mean_departure << " | " << chosen.largest_departure << " | ";
 
