@@ -85,8 +85,8 @@ struct Loop_turning
 /// On closed surfaces with handles cones do not determine alone what is seamless: loops around the handles, too, must turn by multiples of 2 pi / n,
 /// and in a conformal class the cones leave no choice. There the conformally equivalent metric is deformed first, as little as it takes
 /// (of all edge lengths in Penner coordinates, by Newton's method, with flips, whatever `retriangulation` says): to the multiples next to what is
-/// there, chosen together, or to `loop_turnings`. `Flattening_report::handles` tells by how much, and of which theorems it is known that there is such a surface; if there is none,
-/// whatever the mesh, the status is `NOT_REALIZABLE`.
+/// there, chosen together, or to `loop_turnings`. `Flattening_report::handles` tells by how much, and whether it is proven that there is such a
+/// surface; if there is none, whatever the mesh, the status is `NOT_REALIZABLE`.
 ///
 /// On a surface with borders handles, and all borders but one, can be gone around; there the surface must turn by a multiple of 2 pi / n by
 /// itself, as around a border with prescribed angles whose sum makes it so. Otherwise the status is `NOT_SEAMLESS`.
