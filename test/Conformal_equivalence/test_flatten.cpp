@@ -879,7 +879,7 @@ BOOST_AUTO_TEST_CASE(every_status_has_a_text_and_an_error_code)
     Status::DEGENERATE_METRIC, Status::NOT_INJECTIVE, Status::SEAM_LEAVES_NO_DISK, Status::SEAM_MISSES_CONE, Status::STOPPED_BY_VISITOR,
     Status::OUT_OF_MEMORY,
     Status::TOO_MANY_CROSSINGS, Status::NOT_REPRESENTABLE, Status::TOO_MANY_CONES, Status::BOUND_NOT_MET, Status::NOT_QUANTIZABLE,
-    Status::NOT_SEAMLESS };
+    Status::NOT_SEAMLESS, Status::NOT_REALIZABLE };
   BOOST_TEST(CE::message(static_cast<Status>(all.size())).empty()); // these are all
   std::set<std::string> texts;
   for(std::size_t i = 0; i < all.size(); ++i)

@@ -261,6 +261,35 @@ void set_cones(const Options& options, const Mesh& mesh, const Given_surface& gi
                  [&](Vertex v, double angle) { conditions.cone_angle[v] = angle; });
 }
 
+// Lines "quanta vertex-index vertex-index ...": a closed curve along the edges between vertices that follow each other, and from the last to the
+// first; # begins a comment.
+void read_loops(const std::string& file, const Mesh& mesh, const Given_surface& given, std::vector<Prescribed_loop>& loops)
+{
+  const std::string content = read_file(file);
+  Scanner in(content, file, '#');
+  for(; ! in.at_end(); in.skip_line())
+  {
+    const std::int64_t most = 1000000; // right angles and the like: more make no sense
+    const std::int64_t quanta = in.integer_in_line();
+    if(quanta < -most || quanta > most)
+      in.error("a loop cannot turn by ", quanta, " times the angle of --quantize");
+    std::vector<Vertex> vertices;
+    while(! in.at_end_of_line())
+      vertices.push_back(read_vertex(in, given));
+    if(vertices.size() < 2)
+      in.error("expected the vertices of a loop after the number ", quanta);
+    loops.push_back({{}, static_cast<int>(quanta)});
+    for(std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      const Vertex v = vertices[i], w = vertices[(i + 1) % vertices.size()];
+      const Halfedge h = mesh.halfedge(v, w);
+      if(h == Mesh::null_halfedge())
+        in.error("there is no edge from vertex ", v.idx(), " to vertex ", w.idx());
+      loops.back().halfedges.push_back(h);
+    }
+  }
+}
+
 } // namespace
 
 void build_mesh(const Polygon_soup& soup, Mesh& mesh)
@@ -339,6 +368,8 @@ void set_conditions(const Options& options, const Mesh& mesh, const Given_surfac
 {
   if(! options.cone_file.empty())
     set_cones(options, mesh, given, conditions);
+  if(! options.holonomy_file.empty())
+    read_loops(options.holonomy_file, mesh, given, conditions.loops);
   if(options.is_rectangle)
     prescribe_rectangles(options, mesh, given, conditions);
   else

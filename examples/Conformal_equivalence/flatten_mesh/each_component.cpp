@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -67,6 +68,24 @@ void limit_number_of_cones(std::size_t number_of_inner_vertices, Options& option
     options.places_cones = false;
 }
 
+// Those that run on the component.
+void get_loops(const Conditions& whole, const Component_mesh& part, Conditions& result)
+{
+  if(whole.loops.empty())
+    return;
+  std::map<Halfedge, Halfedge> halfedge_of_part;
+  for(Halfedge h : part.mesh.halfedges())
+    halfedge_of_part[part.halfedges[h.idx()]] = h;
+  for(const Prescribed_loop& loop : whole.loops)
+  {
+    if(halfedge_of_part.count(loop.halfedges.front()) == 0)
+      continue;
+    result.loops.push_back({{}, loop.quanta});
+    for(Halfedge h : loop.halfedges)
+      result.loops.back().halfedges.push_back(halfedge_of_part[h]);
+  }
+}
+
 void get_conditions(const Conditions& whole, const Component_mesh& part, Conditions& result)
 {
   for(Vertex v : part.mesh.vertices())
@@ -79,6 +98,7 @@ void get_conditions(const Conditions& whole, const Component_mesh& part, Conditi
   }
   for(Mesh::Edge_index e : part.mesh.edges())
     result.is_diagonal[e] = whole.is_diagonal[Mesh::Edge_index(part.halfedges[part.mesh.halfedge(e).idx()])];
+  get_loops(whole, part, result);
 }
 
 // ---- What was found

@@ -76,6 +76,9 @@ po::options_description visible_options()
        "is given): those of --cones auto are rounded, those of a file have to be")
     ("seamless", po::bool_switch(), "the layout is scaled, turned and deformed as little as it takes, so that a texture of tiles fits across the "
        "seams; the tiles are squares with --quantize 90 (default) or 180, hexagons with 60 or 120. Each component by itself; all fit the same tiles")
+    ("holonomy", po::value<std::string>(), "FILE: with --seamless, how loops around handles turn, lines 'k vertex-index vertex-index ...': the "
+       "closed curve along these edges, on their left, turns by k times the angle of --quantize, modulo a full turn; by default all are chosen, "
+       "as near as can be to what is conformal")
     ("tiles", po::value<std::string>(), "T: with --seamless, about so many tiles on each component; by default as few as --distortion allows")
     ("distortion", po::value<std::string>()->default_value("1.02"), "D: with --seamless, bound on the mean quasi-conformal factor of the deformation")
     ("lattice-coordinates", po::bool_switch(), "with --seamless, the texture coordinates are (a, b) for the point "
@@ -327,6 +330,8 @@ void parse_seamless(const po::variables_map& values, Options& options)
     options.number_of_tiles = parse_count(values["tiles"].as<std::string>(), "--tiles");
   options.maximum_distortion = parse_number_above(1, values, "distortion");
   options.lattice_coordinates = values["lattice-coordinates"].as<bool>();
+  if(is_given(values, "holonomy"))
+    options.holonomy_file = values["holonomy"].as<std::string>();
   exclude(values, "--seamless", {"projective", "refine"}); // what is deformed is not conformal, and has no such weights
   if(values["frame"].as<std::string>() == "unit-square")
     throw Usage_error("--seamless and --frame unit-square exclude each other");
@@ -342,7 +347,7 @@ void parse_cones(const po::variables_map& values, Options& options)
   if(is_given(values, "cones") && cones.empty())
     throw Usage_error("--cones needs the name of a file");
   require(is_auto, values, "--cones auto", {"max-scale", "max-area", "max-rms", "cone-measure"});
-  require(is_seamless, values, "--seamless", {"tiles", "distortion", "lattice-coordinates"});
+  require(is_seamless, values, "--seamless", {"tiles", "distortion", "lattice-coordinates", "holonomy"});
   require(is_seamless || ! cones.empty(), values, "--cones or --seamless", {"quantize"});
   if(is_given(values, "quantize"))
     options.quanta_of_turn = parse_quantum(values["quantize"].as<std::string>());
@@ -492,7 +497,7 @@ void parse_files(const po::variables_map& values, Options& options)
 void check_standard_streams(const Options& options)
 {
   const auto number = [](const std::vector<std::string>& files) { return std::count(files.begin(), files.end(), "-"); };
-  if(number({options.input, options.cone_file, options.angle_file, options.scale_file}) > 1)
+  if(number({options.input, options.cone_file, options.holonomy_file, options.angle_file, options.scale_file}) > 1)
     throw Usage_error("the standard input, '-', can be read only once");
   if(number({options.obj, options.svg, options.html, options.report}) > 1)
     throw Usage_error("only one output can be written to the standard output, '-'");

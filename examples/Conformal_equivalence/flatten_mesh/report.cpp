@@ -284,6 +284,18 @@ nlohmann::ordered_json json_flattened_cones(const Figures& figures)
   return vertices;
 }
 
+// How the loops around handles turned in the conformal metric, and turn; and how far that is from conformal.
+template <typename Handle_turning>
+nlohmann::ordered_json json_handles(const Handle_turning& handles)
+{
+  auto loops = nlohmann::ordered_json::array();
+  for(const auto& loop : handles.loops)
+    loops.push_back({ {"edges", loop.halfedges.size()}, {"conformal_degrees", in_degrees(loop.conformal_turning)}, {"quanta", loop.quanta} });
+  return { {"loops", std::move(loops)}, {"proven_to_exist", handles.existence == CE::Surface_existence::PROVEN}, {"nearest", handles.is_nearest},
+           {"departure", { {"mean", handles.mean_departure}, {"max", handles.maximum_departure} }}, {"residual", handles.residual},
+           {"newton_steps", handles.number_of_steps}, {"flips", handles.number_of_flips} };
+}
+
 nlohmann::ordered_json json_seamless(const Figures& figures)
 {
   const CE::Tiling& t = figures.report.tiling;
@@ -298,6 +310,8 @@ nlohmann::ordered_json json_seamless(const Figures& figures)
                                   {"distortion", { {"mean", t.mean_distortion}, {"max", t.maximum_distortion} }}, {"closest", t.is_closest},
                                   {"quasi_conformal_mean", { {"before", t.mean_factor_before}, {"after", t.mean_factor} }} };
   json["seams"] = std::move(seams);
+  if(! figures.report.handles.loops.empty())
+    json["handles"] = json_handles(figures.report.handles);
   return json;
 }
 

@@ -46,7 +46,8 @@ Report flatten_seamlessly(const Options& options, const Conditions& conditions, 
   Progress_visitor visitor(progress);
   const Stopwatch watch;
   Result& given = results.given;
-  const auto tiling = tiling_parameters(options, results, visitor).edge_is_constrained_map(conditions.is_diagonal);
+  const auto tiling = tiling_parameters(options, results, visitor).edge_is_constrained_map(conditions.is_diagonal)
+                                                                            .loop_turnings(conditions.loops);
   const Report report = options.places_cones
     ? CE::compute_seamless_parameterization(given.mesh, given.uv, tiling)
     : CE::compute_seamless_parameterization(given.mesh, given.uv,

@@ -315,7 +315,7 @@ void announce_outputs(const Options& options, const Material_files& beside, Outp
   const std::vector<std::string> outputs = { options.obj, options.obj.empty() ? "" : beside.material,
                                              options.obj.empty() ? "" : beside.texture, options.svg, options.html, options.report };
   for(const std::string& file : outputs)
-    for(const std::string& input : {options.input, options.cone_file, options.angle_file, options.scale_file})
+    for(const std::string& input : {options.input, options.cone_file, options.holonomy_file, options.angle_file, options.scale_file})
     {
       std::error_code ignored;
       if(! file.empty() && ! input.empty() && std::filesystem::equivalent(file, input, ignored))

@@ -75,6 +75,41 @@ struct Tiling
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
+/// Whether there is a flat surface of a given genus with given cones and given rotations of its handles, on any triangulation.
+enum class Surface_existence
+{
+  PROVEN,    ///< there is one
+  EXPECTED,  ///< there is no theorem that was relied upon, and no reason why not
+  IMPOSSIBLE ///< there is none
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// How a closed curve on a surface with handles turns in the flat metric: the integral of its geodesic curvature.
+template <typename TriangleMesh>
+struct Turned_loop
+{
+  /// the halfedges through which the curve enters faces, in order
+  std::vector<typename boost::graph_traits<TriangleMesh>::halfedge_descriptor> halfedges;
+  double conformal_turning; ///< in the conformally equivalent metric with the same cones (radians)
+  long quanta;              ///< in the metric found, in multiples of 2 pi / n
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// How the handles of a closed surface were turned, so that it has a seamless parameterization, and how far that led out of the conformal class.
+template <typename TriangleMesh>
+struct Handle_turning
+{
+  std::vector<Turned_loop<TriangleMesh> > loops; ///< a basis of the first homology; empty unless there are handles
+  bool is_nearest = true;          ///< whether the turnings are proven to be those that take the least deformation, to first order
+  Surface_existence existence = Surface_existence::PROVEN; ///< what is known of surfaces with these cones and turnings
+  double mean_departure = 0;       ///< root of the mean square of the changes of the logarithms of the length cross ratios; 0: conformal
+  double maximum_departure = 0;    ///< the largest of their absolute values
+  double residual = 0;             ///< largest difference of a turning from its multiple (radians)
+  std::size_t number_of_steps = 0; ///< Newton steps from the conformally equivalent metric
+  std::size_t number_of_flips = 0; ///< of edges, on the way
+};
+
+/// \ingroup PkgConformalEquivalenceStatus
 /// What a function of this package reports about a mesh.
 template <typename TriangleMesh>
 struct [[nodiscard]] Flattening_report
@@ -115,6 +150,7 @@ struct [[nodiscard]] Flattening_report
   std::vector<Period_lattice<> > lattices;                   ///< of the tori, in the order of their first faces
 
   Tiling tiling;                                             ///< of a seamless layout
+  Handle_turning<TriangleMesh> handles;                      ///< of a seamless layout of a surface with handles
 
   /// cones that were placed, but became flat when their angles were rounded
   std::vector<vertex_descriptor> flattened_cones;

@@ -51,7 +51,10 @@ enum class Status
   BOUND_NOT_MET,         ///< the distortion asked for was not reached, but `amount`: what was found is returned nevertheless
   NOT_QUANTIZABLE,       ///< no such multiples of the angle quantum sum up to what the topology asks for: `amount` (radians)
   /// from one side of the seam at `edges` to the other the surface turns by `amount` (radians): no multiple of the angle quantum
-  NOT_SEAMLESS
+  NOT_SEAMLESS,
+  /// whatever its metric, no surface of this topology has the cones at `vertices` and handles that turn like that; or the loops along `edges`,
+  /// for which turnings are prescribed, are not closed, or contradict one another
+  NOT_REALIZABLE
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -103,6 +106,7 @@ constexpr Status_description description(Status status)
     case Status::NOT_QUANTIZABLE:       return {"the cones cannot have multiples of the angle quantum", SMP::ERROR_WRONG_PARAMETER};
     case Status::NOT_SEAMLESS:          return {"the two sides of the seam do not differ by a multiple of the angle quantum",
                                                 SMP::ERROR_WRONG_PARAMETER};
+    case Status::NOT_REALIZABLE:        return {"there is no flat surface with such cones and turnings of loops", SMP::ERROR_WRONG_PARAMETER};
   }
   return {"", SMP::ERROR_WRONG_PARAMETER}; // no status
 }

@@ -19,8 +19,11 @@
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
+#include <boost/graph/graph_traits.hpp>
+
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Conformal_equivalence {
@@ -46,9 +49,23 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 
 /// \ingroup PkgConformalEquivalenceDoors
 ///
-/// makes a seamless parameterization of a disk or sphere: a layout with cones at points of a lattice, in which the two sides of every seam edge
-/// differ by a symmetry of the lattice. A checkerboard pattern, or any other texture with the symmetries of the lattice, then covers the surface
-/// without a visible seam; so do the tiles of a quadrangulation.
+/// How a closed curve along the edges of a surface with handles is to turn, for `compute_seamless_parameterization()`.
+template <typename TriangleMesh>
+struct Loop_turning
+{
+  /// the edges in order: each halfedge begins where the one before it ends, and the first one where the last one does. The curve
+  /// meant is the one right beside them, on the left.
+  std::vector<typename boost::graph_traits<TriangleMesh>::halfedge_descriptor> halfedges;
+
+  /// by how many times 2 pi / n it turns to the left, modulo n. (The angle by which a vector turns that is carried along the curve is minus that.)
+  int quanta = 0;
+};
+
+/// \ingroup PkgConformalEquivalenceDoors
+///
+/// makes a seamless parameterization of a disk or of a closed surface: a layout with cones at points of a lattice, in which the two sides of
+/// every seam edge differ by a symmetry of the lattice. A checkerboard pattern, or any other texture with the symmetries of the lattice, then
+/// covers the surface without a visible seam; so do the tiles of a quadrangulation.
 ///
 ///  - *Cones* have multiples of the `angle_quantum` 2 pi / n for their angle sums. They place themselves, see `place_cones()`, or are given.
 ///  - The conformally equivalent flat metric is laid out, as by `flatten()`. The motions across the seam are rotations by multiples of 2 pi / n, with
@@ -65,8 +82,14 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 /// coordinates of one side to those of the other, without any rounding. With n = 3 and 6 this holds for `Seamless_coordinates::LATTICE`. All
 /// triangles are positive, decided exactly on the numbers written.
 ///
-/// Handles, and all borders but one, can be gone around; the surface then must turn by a multiple of 2 pi / n, as around a border with prescribed
-/// angles whose sum makes it so, or on a flat torus. Otherwise the status is `NOT_SEAMLESS`.
+/// On closed surfaces with handles cones do not determine alone what is seamless: loops around the handles, too, must turn by multiples of 2 pi / n,
+/// and in a conformal class the cones leave no choice. There the conformally equivalent metric is deformed first, as little as it takes
+/// (of all edge lengths in Penner coordinates, by Newton's method, with flips, whatever `retriangulation` says): to the multiples next to what is
+/// there, chosen together, or to `loop_turnings`. `Flattening_report::handles` tells by how much, and whether it is proven that there is such a
+/// surface; if there is none, whatever the mesh, the status is `NOT_REALIZABLE`.
+///
+/// On a surface with borders handles, and all borders but one, can be gone around; there the surface must turn by a multiple of 2 pi / n by
+/// itself, as around a border with prescribed angles whose sum makes it so. Otherwise the status is `NOT_SEAMLESS`.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam HalfedgeUVMap as in `flatten()`
@@ -93,6 +116,11 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 ///     \cgalParamType{`double`}
 ///     \cgalParamDefault{`CGAL_PI / 2`}
 ///   \cgalParamNEnd
+///   \cgalParamNBegin{loop_turnings}
+///     \cgalParamDescription{how loops are to turn; all others are chosen, as they are without any}
+///     \cgalParamType{a range of `Loop_turning<TriangleMesh>`; for closed surfaces}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{number_of_tiles}
 ///     \cgalParamDescription{the area of the layout, about: of the nearby sizes and all rotations those with the least distortion are taken. If triangles are inverted by the deformation, there will be twice as many, or more}
 ///     \cgalParamType{`std::size_t`}
@@ -112,7 +140,7 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 ///     \cgalParamDescription{as in `flatten()`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{log_scale_factor_map, scaled_edge_length_map}
-///     \cgalParamDescription{as in `flatten()`: of the flat metric before it is deformed}
+///     \cgalParamDescription{as in `flatten()`: of the flat metric before cones are moved; where handles were turned, the factors that come nearest to it}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, number_of_threads, newton_strategy, retriangulation, border_edges, sparse_linear_solver, visitor}
 ///     \cgalParamDescription{as in `flatten()`}
@@ -127,11 +155,12 @@ Seamless_options read_seamless_options(const NamedParameters& np)
 /// \return the report, with the cones and their lattice points, exact transitions, and the `Tiling`. Maps are written iff it is a success, or
 ///         `BOUND_NOT_MET`: then of the best that was found. Statuses: those of `place_cones()` and `flatten()`; `WRONG_TOPOLOGY` (several
 ///         components); `INVALID_NUMBER` (a bound below 1); `ANGLE_OUT_OF_RANGE` (no lattice has this quantum, or vertices: cones with other angles,
-///         or free ones); `NOT_SEAMLESS` (edges; cones are reported all the same); `NOT_INJECTIVE` (faces: inverted on every grid that was tried);
-///         `SINGULAR_PROBLEM`.
+///         or free ones); `NOT_SEAMLESS` (edges; cones are reported all the same); `NOT_REALIZABLE` (vertices: the cones; edges: loops);
+///         `ITERATIONS_EXHAUSTED` (no metric was found in which handles turn like that); `NOT_INJECTIVE` (faces: inverted on every grid that was
+///         tried); `SINGULAR_PROBLEM`.
 ///
 /// Time: that of `place_cones()` and `flatten()`, the factorization of a matrix of twice the size, a solution with it for each cone, and a search
-/// among lattice points that is bounded.
+/// among lattice points that is bounded; with handles some ten to forty factorizations of a matrix of four times the size.
 ///
 /// \sa `CGAL::Conformal_equivalence::place_cones()`
 /// \sa `CGAL::Conformal_equivalence::flatten()`

@@ -8,7 +8,16 @@
 #include "mesh.h"
 #include "options.h"
 
+#include <vector>
+
 namespace flattening {
+
+// A closed curve along edges, in order, and by how many times the quantum of angles it turns.
+struct Prescribed_loop
+{
+  std::vector<Halfedge> halfedges;
+  int quanta;
+};
 
 // What is prescribed at each vertex: its angle sum, or u if it is constrained.
 struct Conditions
@@ -16,6 +25,8 @@ struct Conditions
   Vertex_map<double> border_angle, cone_angle, u;
   Vertex_map<bool> is_constrained;
   Mesh::Property_map<Mesh::Edge_index, bool> is_diagonal; // of a face with more than three sides: no cut passes there
+
+  std::vector<Prescribed_loop> loops;
 
   // u = 0 on all borders: they keep their lengths; no cones, and no diagonals
   explicit Conditions(Mesh& mesh);

@@ -27,6 +27,7 @@ struct Options
   std::optional<std::array<std::size_t, 4> > corners; // of the rectangle; chosen if absent
   std::string angle_file, scale_file;                 // of the borders
   std::string cone_file;
+  std::string holonomy_file;                          // how loops around handles turn
   bool places_cones = false;                          // --cones auto
   std::size_t number_of_cones = 0;                    // to be placed; 0: as many as the bounds ask for
   double maximum_log_scale_factor = 0, maximum_area_distortion = 0, maximum_root_mean_square = 0; // of placed cones; 0: no bound

@@ -71,11 +71,14 @@ typedef Parameters_of<Common_parameters,
 
 typedef Parameters_of<Parameters_of_place_cones, Condition_parameters, Cut_parameters, Scaled_parameters,
                       Parameter_list<internal_np::conformal_number_of_tiles_t, internal_np::conformal_maximum_distortion_t,
-                                     internal_np::conformal_seamless_coordinates_t> > Parameters_of_seamless_parameterization;
+                                     internal_np::conformal_seamless_coordinates_t,
+                                     internal_np::conformal_loop_turnings_t> > Parameters_of_seamless_parameterization;
 
 // Those of the mesh that is made, in the doors that make one.
 typedef Parameter_list<internal_np::conformal_weight_t, internal_np::conformal_edge_is_seam_t,
                        internal_np::conformal_input_face_t> Parameters_of_refined_mesh;
+
+typedef Parameter_list<internal_np::conformal_edge_is_seam_t, internal_np::conformal_input_face_t> Parameters_of_refined_seamless_mesh;
 
 typedef Parameter_list<internal_np::conformal_weight_t, internal_np::conformal_input_face_t> Parameters_of_refined_sphere;
 

@@ -10,12 +10,18 @@
 #include <CGAL/Conformal_equivalence/Cone_placement.h>
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/report_cones.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/Flattening.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/Stages.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Dual_loops.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Handle_turner.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Quantized_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Rectification.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Rectified_layout.h>
@@ -28,11 +34,11 @@
 #include <CGAL/Conformal_equivalence/place_cones.h>
 
 #include <CGAL/number_utils.h>
+#include <CGAL/use.h>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <new>
 #include <utility>
 #include <vector>
@@ -47,6 +53,23 @@ struct Seamless_options
   double angle_quantum = CGAL_PI / 2; // radians
   Rectification_options rectification;
 };
+
+// The turnings that are prescribed for closed chains of halfedges; those on a border, which have no number, make a chain that is refused.
+template <typename TriangleMesh, typename NamedParameters>
+std::vector<Prescribed_turning> read_loop_turnings(const Imported_mesh<TriangleMesh>& mesh, const NamedParameters& np)
+{
+  CGAL_USE(mesh);
+  CGAL_USE(np);
+  std::vector<Prescribed_turning> result;
+  if constexpr(is_given<internal_np::conformal_loop_turnings_t, NamedParameters>)
+    for(const auto& loop : parameters::get_parameter(np, internal_np::conformal_loop_turnings))
+    {
+      result.push_back({{}, long(loop.quanta)});
+      for(const auto& h : loop.halfedges)
+        result.back().chain.push_back(mesh.is_imported(h) ? mesh.index_of_halfedge(h) : Dual_loops::null_index);
+    }
+  return result;
+}
 
 // One seamless parameterization: the metric with its cones, its layout, and the layout rectified.
 template <typename TriangleMesh>
@@ -66,17 +89,74 @@ public:
   template <typename NamedParameters>
   void run(const NamedParameters& np)
   {
+    find_cut_metric(np);
+    flattening.lay_out(); // what is judged is the layout that is rectified
+    flattening.tell_what_was_found();
+    if(!bool(flattening.report))
+      return;
+    const std::vector<Quantized_cone> cones = quantized_cones();
+    take(rectified(flattening.mesh.triangulation, flattening.cut, flattening.layout, cones, np));
+    finish();
+  }
+
+  // ---- Steps
+
+  // The metric, and the cut.
+  template <typename NamedParameters>
+  void find_cut_metric(const NamedParameters& np)
+  {
     flattening.import_lengths(np);
     run_step(flattening.report, [&]
     {
       if(check())
         find_metric(np);
     });
+    run_step(flattening.report, [&] { turn_handles(np); });
     flattening.find_cut();
-    flattening.lay_out(); // what is judged is the layout that is rectified
-    flattening.tell_what_was_found();
-    if(bool(flattening.report))
-      rectify(make_factorization(solver_traits_of(np)));
+  }
+
+  std::vector<Quantized_cone> quantized_cones() const
+  {
+    const long unit = 2 * Exact_angle<double>::units_of_pi / symmetry();
+    std::vector<Quantized_cone> result;
+    for(Index v : flattening.cones())
+      result.push_back({v, flattening.conditions().angle_sum(v).units / unit});
+    return result;
+  }
+
+  // What becomes of a layout, of the mesh or of a refinement of it.
+  template <typename NamedParameters>
+  Rectified_layout rectified(const Intrinsic_triangulation<double>& t, const Cut_graph& cut, const Layout<double>& layout,
+                             const std::vector<Quantized_cone>& cones, const NamedParameters& np)
+  {
+    Rectified_layout result;
+    const Stopwatch stopwatch;
+    try
+    {
+      Rectification<double> rectification(t, cut, layout, cones, Texture_lattice(symmetry()), options_.rectification,
+                                          make_factorization(solver_traits_of(np)));
+      result = std::move(rectification.run());
+    }
+    catch(const std::bad_alloc&)
+    {
+      result = Rectified_layout();
+      result.status = Status::OUT_OF_MEMORY;
+    }
+    flattening.report.statistics.seconds.layout += stopwatch.seconds();
+    return result;
+  }
+
+  // Tells what became of the placement of cones.
+  void finish()
+  {
+    Report& report = flattening.report;
+    if(are_cones_placed_)
+      report_rounding(flattening.mesh, placement_, report);
+    if(bool(report) && placement_.status == Status::BOUND_NOT_MET)
+    {
+      report.status = placement_.status;
+      report.amount = placement_.amount;
+    }
   }
 
 private:
@@ -173,41 +253,73 @@ private:
     return angle.is_exact() && angle.units % (2 * Exact_angle<double>::units_of_pi / symmetry()) == 0;
   }
 
-  // ---- Rectification
+  // ---- Handles
 
-  std::vector<Quantized_cone> quantized_cones() const
-  {
-    const long unit = 2 * Exact_angle<double>::units_of_pi / symmetry();
-    std::vector<Quantized_cone> result;
-    for(Index v : flattening.cones())
-      result.push_back({v, flattening.conditions().angle_sum(v).units / unit});
-    return result;
-  }
-
-  void rectify(std::unique_ptr<Factorization> factorization)
+  // In a conformal class the cones determine by how much handles turn: where that is no multiple of the quantum, the class is left.
+  template <typename NamedParameters>
+  void turn_handles(const NamedParameters& np)
   {
     Report& report = flattening.report;
-    if(are_cones_placed_)
-      report_rounding(flattening.mesh, placement_, report);
+    const std::vector<Prescribed_turning> prescribed = read_loop_turnings(flattening.mesh, np);
+    if(report.topology.number_of_borders != 0)
+    {
+      if(!prescribed.empty())
+        report.status = Status::WRONG_TOPOLOGY;
+      return;
+    }
+    if(report.topology.genus == 0 && prescribed.empty())
+      return;
     const Stopwatch stopwatch;
     try
     {
       const std::vector<Quantized_cone> cones = quantized_cones();
-      Rectification<double> rectification(flattening.mesh.triangulation, flattening.cut, flattening.layout, cones, Texture_lattice(symmetry()),
-                                          options_.rectification, std::move(factorization));
-      take(std::move(rectification.run()));
+      const Handle_turner<double> turner(flattening.mesh.triangulation, flattening.metric, flattening.conditions(), cones, symmetry(), prescribed,
+                                         read_solver_options(flattening.mesh, np));
+      Turned_handles handles = turner.choose();
+      if(bool(handles))
+        take(turner.turn(handles, make_factorization(solver_traits_of(np))));
+      report_handles(handles);
     }
     catch(const std::bad_alloc&)
     {
       report.status = Status::OUT_OF_MEMORY;
     }
-    report.statistics.seconds.layout += stopwatch.seconds();
-    if(bool(report) && placement_.status == Status::BOUND_NOT_MET)
-    {
-      report.status = placement_.status;
-      report.amount = placement_.amount;
-    }
+    report.statistics.seconds.solve += stopwatch.seconds();
   }
+
+  void take(Conformal_metric<double> turned)
+  {
+    if(!bool(turned))
+      return;
+    const Statistics before = flattening.metric.statistics;
+    turned.statistics += before;
+    turned.statistics.number_of_flips = turned.flips.size();
+    flattening.metric = std::move(turned);
+    flattening.report.statistics = flattening.metric.statistics;
+  }
+
+  void report_handles(const Turned_handles& handles)
+  {
+    Report& report = flattening.report;
+    if(!bool(handles))
+      report_outcome(flattening.mesh, handles, report);
+    Handle_turning<TriangleMesh>& result = report.handles;
+    for(std::size_t i = 0; i < handles.loops.size(); ++i)
+    {
+      result.loops.push_back({{}, handles.conformal_turnings[i], handles.quanta.empty() ? 0 : handles.quanta[i]});
+      for(Index h : handles.loops[i])
+        result.loops.back().halfedges.push_back(flattening.mesh.halfedge(h));
+    }
+    result.is_nearest = handles.is_nearest;
+    result.existence = handles.existence;
+    result.mean_departure = handles.mean_departure;
+    result.maximum_departure = handles.largest_departure;
+    result.residual = handles.residual;
+    result.number_of_steps = handles.number_of_steps;
+    result.number_of_flips = handles.number_of_flips;
+  }
+
+  // ---- Rectification
 
   void take(Rectified_layout rectified)
   {

@@ -1,0 +1,508 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// From a conformally equivalent flat metric of a closed surface with handles to one that turns by multiples of 2 pi / n along all loops, which is
+// what section 8 of Springborn, Schroeder and Pinkall, 2008, leaves open: in a conformal class the cones alone determine how
+// handles turn. So the class is left, as little as it takes (Turning_equations.h).
+//
+// How the handles shall turn is chosen among all that is allowed: the integers m that minimize (m q - kappa)^T G (m q - kappa), where kappa are the
+// turnings of a basis in the metric given, q = 2 pi / n. This is a closest vector of a lattice (closest_vector.h). With the form F of the
+// deformations that change the turnings, to first order, G is F + diag F: F alone lets one loop turn far, if that makes others turn as they should,
+// but what is said to first order does not hold so far; its diagonal alone would be rounding one by one. Where Newton's method does not find a
+// metric, the next nearest are tried. The user may prescribe turnings of some loops, modulo n: each is a congruence for the m
+// (congruent_vectors.h).
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_HANDLE_TURNER_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_HANDLE_TURNER_H
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Flattening_report.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
+#include <CGAL/Conformal_equivalence/Solver_options.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Dual_loops.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Quantized_cone.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Seamless_signature.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Turning_equations.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Turning_newton.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/congruent_vectors.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/homology_basis.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/loop_classes.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/flipped_length.h>
+#include <CGAL/Conformal_equivalence/internal/compiled.h>
+
+#include <CGAL/number_utils.h>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// What the user prescribes: how the curve on the left of a closed chain of halfedges turns, modulo n.
+struct Prescribed_turning
+{
+  std::vector<std::uint32_t> chain;
+  long quanta;
+};
+
+// What is told of the handles of a metric. The status is one of `Turning_metric`, or of a conformal solve, or `NOT_REALIZABLE`.
+struct Turned_handles : public Outcome
+{
+  std::vector<Dual_loops::Loop> loops;     // a basis of the first homology, on the triangulation given
+  std::vector<double> conformal_turnings;  // by loop (radians): before
+  std::vector<long> quanta;                // by loop: after, in units of 2 pi / n
+  std::vector<std::vector<long> > others;  // what is to be tried next, in order
+  bool is_nearest = true;                  // whether they are proven to be those that take the least deformation, to first order
+  Surface_existence existence = Surface_existence::PROVEN;
+  double mean_departure = 0;               // root of the mean square of the changes of the logarithms of length cross ratios
+  double largest_departure = 0;            // the largest one
+  double residual = 0;                     // largest difference of a turning from its target (radians)
+  std::size_t number_of_steps = 0;
+  std::size_t number_of_flips = 0;
+};
+
+// Length cross ratios of one metric over those of another one on the same triangulation, and the factors at vertices that come nearest.
+class Conformal_departure
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<double> Triangulation;
+
+public:
+  double mean = 0, largest = 0;   // of |log| of the quotients: root of the mean square, and largest
+  std::vector<double> u;          // by vertex: e^{(u_i + u_j) / 2} are, in the mean, the quotients of the lengths
+
+  Conformal_departure(const Triangulation& before, const Triangulation& after) : change_(after.number_of_edges())
+  {
+    for(Index e = 0; e < after.number_of_edges(); ++e)
+      change_[e] = 2 * std::log(after.length(e) / before.length(e));
+    compare_cross_ratios(after);
+    fit_factors(after);
+  }
+
+private:
+  void compare_cross_ratios(const Triangulation& t)
+  {
+    double sum = 0;
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+    {
+      const Index h = t.edge_halfedge(e), g = t.twin(h);
+      const double x = (change(t, t.next(h)) - change(t, t.previous(h))) + (change(t, t.next(g)) - change(t, t.previous(g)));
+      sum += x * x;
+      largest = (std::max)(largest, std::abs(x));
+    }
+    mean = std::sqrt(sum / t.number_of_edges());
+  }
+
+  double change(const Triangulation& t, Index h) const { return change_[t.edge(h)]; }
+
+  // By least squares of change - (u_i + u_j) over all edges.
+  void fit_factors(const Triangulation& t)
+  {
+    const double least_diagonal = 1e-9; // where the graph of edges is bipartite the u are not unique
+    const Index n = t.number_of_vertices();
+    std::vector<Eigen::Triplet<double> > entries;
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+    for(Index v = 0; v < n; ++v)
+      entries.emplace_back(int(v), int(v), least_diagonal);
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+    {
+      const Index h = t.edge_halfedge(e), i = t.origin(h), j = t.target(h);
+      for(Index v : {i, j})
+      {
+        b[v] += change_[e];
+        entries.emplace_back(int(v), int(v), 1.);
+      }
+      entries.emplace_back(int((std::max)(i, j)), int((std::min)(i, j)), i == j ? 2. : 1.);
+    }
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double> > factor(matrix);
+    const Eigen::VectorXd x = factor.info() == Eigen::Success ? Eigen::VectorXd(factor.solve(b)) : Eigen::VectorXd::Zero(n);
+    u.assign(x.data(), x.data() + x.size());
+  }
+
+  std::vector<double> change_; // of 2 log l, by edge
+};
+
+// `NT` is `double`: it is a template so that it can be compiled once (compiled.h).
+template <typename NT>
+class Handle_turner
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<NT> Triangulation;
+  typedef Conformal_metric<NT> Metric;
+  typedef Dual_loops::Loop Loop;
+
+public:
+  // `metric` is a conformally equivalent one of `t`, a closed connected surface, with these conditions, all of which are angles. The cones have
+  // multiples of 2 pi / n. Keeps references.
+  Handle_turner(const Triangulation& t, const Metric& metric, const Conformal_conditions<NT>& conditions,
+                const std::vector<Quantized_cone>& cones, int n, const std::vector<Prescribed_turning>& prescribed,
+                const Solver_options& options);
+
+  // Finds how the handles shall turn.
+  Turned_handles choose() const;
+
+  // The metric in which they do. \pre choose() was a success
+  Metric turn(Turned_handles& handles, std::unique_ptr<Factorization> factorization) const;
+
+private:
+  double quantum() const { return 2 * CGAL_PI / double(n_); }
+
+  // ---- The metric given
+
+  // With the scaled lengths.
+  Triangulation scaled() const
+  {
+    std::vector<NT> lengths;
+    for(Index e = 0; e < metric_.triangulation.number_of_edges(); ++e)
+      lengths.push_back(metric_.scaled_length(metric_.triangulation.edge_halfedge(e)));
+    return metric_.triangulation.with_lengths(std::move(lengths));
+  }
+
+  // On the triangulation of the metric.
+  Dual_loops carried(const std::vector<Loop>& given) const
+  {
+    Dual_loops loops(t_, given);
+    Triangulation t = t_;
+    for(Index e : metric_.flips)
+    {
+      loops.flip(t, e);
+      t.flip_edge(e, t.length(e));
+    }
+    return loops;
+  }
+
+  // ---- What is prescribed
+
+  // The congruences for the turnings of the basis; a chain that is not closed goes to `edges`.
+  std::vector<Congruence> congruences(const std::vector<Loop>& basis, const std::vector<double>& turning, Outcome& outcome) const
+  {
+    const Homology_coordinates<NT> coordinates(t_, basis);
+    const Triangulation s = scaled();
+    const Corner_angles corners(s);
+    std::vector<Congruence> result;
+    for(const Prescribed_turning& p : prescribed_)
+    {
+      if(!is_closed_chain(t_, p.chain))
+      {
+        refuse(p, outcome);
+        continue;
+      }
+      Congruence c{coordinates(p.chain), 0};
+      // Rotations are a homomorphism of the first homology and the loops around cones: what the basis does not tell is a multiple, too.
+      double rest = turning_of_loop(loop_on_the_left(t_, p.chain), s, corners);
+      for(std::size_t i = 0; i < basis.size(); ++i)
+        rest -= double(c.factors[i]) * turning[i];
+      c.value = p.quanta - std::lround(rest / quantum());
+      result.push_back(std::move(c));
+    }
+    return result;
+  }
+
+  // A loop that is contracted turns once.
+  double turning_of_loop(const Loop& loop, const Triangulation& s, const Corner_angles& corners) const
+  {
+    const Loop reduced = Dual_loops::reduced(t_, loop);
+    return reduced.empty() ? 2 * CGAL_PI : turnings(s, carried({reduced}), corners).front();
+  }
+
+  void refuse(const Prescribed_turning& p, Outcome& outcome) const
+  {
+    outcome.status = Status::NOT_REALIZABLE;
+    for(Index h : p.chain)
+      if(h < t_.number_of_halfedges())
+        outcome.edges.push_back(t_.edge(h));
+  }
+
+  void refuse_all(Outcome& outcome) const
+  {
+    for(const Prescribed_turning& p : prescribed_)
+      refuse(p, outcome);
+  }
+
+  // ---- The choice
+
+  Seamless_signature signature(std::vector<long> quanta) const
+  {
+    Seamless_signature result;
+    result.genus = quanta.size() / 2;
+    result.symmetry = n_;
+    for(const Quantized_cone& cone : cones_)
+      result.cones.push_back(cone.quanta);
+    result.loops = std::move(quanta);
+    return result;
+  }
+
+  // Takes the nearest that is admitted and exists.
+  void choose_among(const Congruent_vectors& admitted, const std::vector<double>& turning, const Dual_loops& loops, Turned_handles& result) const
+  {
+    const std::size_t most = 32, most_nodes = 200000; // some tenths of a second, and more than are ever refused in a row
+    const Eigen::Index dimension = Eigen::Index(turning.size());
+    Eigen::MatrixXd basis(dimension, dimension);
+    Eigen::VectorXd target(dimension);
+    for(Eigen::Index i = 0; i < dimension; ++i)
+    {
+      target[i] = turning[std::size_t(i)] / quantum() - double(admitted.origin[std::size_t(i)]);
+      for(Eigen::Index j = 0; j < dimension; ++j)
+        basis(i, j) = double(admitted.basis[std::size_t(j)][std::size_t(i)]);
+    }
+    const Eigen::MatrixXd form = deformation_form(loops);
+    const Reduced_lattice lattice(basis.transpose() * form * basis);
+    result.status = lattice.is_valid() ? Status::NOT_REALIZABLE : Status::SINGULAR_PROBLEM;
+    if(!lattice.is_valid())
+      return;
+    const auto candidates = lattice.nearest_vectors(basis.partialPivLu().solve(target), most, most_nodes);
+    for(const Lattice_vector& v : candidates)
+    {
+      std::vector<long> quanta(admitted.origin.begin(), admitted.origin.end());
+      for(std::size_t j = 0; j < v.coefficients.size(); ++j)
+        for(std::size_t i = 0; i < quanta.size(); ++i)
+          quanta[i] += long(v.coefficients[j] * admitted.basis[j][i]);
+      if(internal::existence(signature(quanta)) == Surface_existence::IMPOSSIBLE)
+        continue;
+      if(bool(result))
+        result.others.push_back(std::move(quanta));
+      else
+      {
+        take(std::move(quanta), result);
+        result.is_nearest = v.is_closest;
+      }
+    }
+  }
+
+  void take(std::vector<long> quanta, Turned_handles& result) const
+  {
+    result.existence = internal::existence(signature(quanta));
+    result.quanta = std::move(quanta);
+    result.status = Status::OK;
+  }
+
+  // x^T G x is about what it takes to make the loops turn by x more, in units of the quantum. On a Delaunay triangulation: the sharp angles of
+  // others promise more than they can give.
+  Eigen::MatrixXd deformation_form(Dual_loops loops) const
+  {
+    Triangulation s = scaled();
+    std::vector<Index> all(s.number_of_edges());
+    std::iota(all.begin(), all.end(), Index(0));
+    Delaunay_flipper<NT>(s).flip_to_delaunay(std::vector<double>(), std::move(all), Flip_rule::PTOLEMY, [&](Index e) { loops.flip(s, e); });
+    const Turning_rows rows(s);
+    const Eigen::Index n = Eigen::Index(loops.size()), first = rows.number_of_vertices();
+    Turning_equations equations(s, loops, rows, Corner_angles(s));
+    if(!equations.factorize())
+      return Eigen::MatrixXd(0, 0);
+    Eigen::MatrixXd result(n, n);
+    for(Eigen::Index j = 0; j < n; ++j)
+    {
+      Eigen::VectorXd right = Eigen::VectorXd::Zero(first + n);
+      right[first + j] = quantum();
+      result.col(j) = -quantum() * equations.multipliers(right).tail(n);
+    }
+    result = (result + result.transpose()).eval() / 2;
+    result.diagonal() *= 2;
+    return result;
+  }
+
+  // ---- The metric found
+
+  Turning_targets targets(const std::vector<long>& quanta) const
+  {
+    Turning_targets result;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      result.angle_sum.push_back(conditions_.angle_sum(v).template radians<double>());
+    for(long q : quanta)
+      result.turning.push_back(double(q) * quantum());
+    return result;
+  }
+
+  // Whether they are already.
+  bool are_turned(Turned_handles& handles) const
+  {
+    const double rounding = 1e-9; // of turnings in a metric of `double`s, amply
+    const Turning_targets target = targets(handles.quanta);
+    handles.residual = 0;
+    for(std::size_t i = 0; i < target.turning.size(); ++i)
+      handles.residual = (std::max)(handles.residual, std::abs(handles.conformal_turnings[i] - target.turning[i]));
+    return handles.residual < rounding;
+  }
+
+  // For the nearest turnings; if the method is not on its way to an end soon, for others, and what is found is put into `handles`.
+  Turning_metric find(Turned_handles& handles) const
+  {
+    const std::size_t most_tried = 8, soon = 60; // steps; from some it takes 20, and more than 40 hardly ever
+    Turning_newton_options options;
+    options.tolerance = options_.gradient_tolerance;
+    options.maximum_number_of_steps = (std::min)(options_.number_of_iterations, soon);
+    options.visitor = options_.visitor;
+    const Dual_loops loops = carried(handles.loops);
+    Turning_metric result = Turning_newton<NT>(scaled(), loops, targets(handles.quanta), options).run();
+    for(std::size_t i = 0; i < handles.others.size() && i < most_tried && result.status == Status::ITERATIONS_EXHAUSTED; ++i)
+    {
+      handles.number_of_steps += result.number_of_steps;
+      Turning_metric next = Turning_newton<NT>(scaled(), loops, targets(handles.others[i]), options).run();
+      if(next.status == Status::ITERATIONS_EXHAUSTED)
+        continue;
+      take(handles.others[i], handles);
+      handles.is_nearest = false;
+      result = std::move(next);
+    }
+    return result;
+  }
+
+  // The lengths that Ptolemy's theorem gives after flips.
+  Triangulation flipped(const std::vector<Index>& flips) const
+  {
+    Triangulation result = t_;
+    for(Index e : flips)
+      result.flip_edge(e, ptolemy_length(result, e));
+    return result;
+  }
+
+  // The metric whose scaled lengths are those of `found`, with the factors that come nearest to its departure; and its angle sums made those
+  // of the conditions up to the rounding of the wide number type, by a conformal change too little to be seen elsewhere.
+  Metric with_factors(const Triangulation& found, const std::vector<double>& u, std::unique_ptr<Factorization> factorization) const
+  {
+    std::vector<NT> lengths;
+    for(Index e = 0; e < found.number_of_edges(); ++e)
+    {
+      const Index h = found.edge_halfedge(e);
+      lengths.push_back(found.length(e) * std::exp(-(u[found.origin(h)] + u[found.target(h)]) / 2));
+    }
+    Solver_options options = options_;
+    options.retriangulation = Retriangulation::WHEN_NEEDED;
+    options.initial_log_scale_factors = u;
+    Metric_finder<NT> finder(found.with_lengths(std::move(lengths)), std::move(factorization));
+    Metric result = finder.find(conditions_, options);
+    if(!result.is_retriangulated())
+      result.triangulation = finder.take_triangulation();
+    return result;
+  }
+
+  const Triangulation& t_;
+  const Metric& metric_;
+  const Conformal_conditions<NT>& conditions_;
+  const std::vector<Quantized_cone>& cones_;
+  const long n_;
+  const std::vector<Prescribed_turning>& prescribed_;
+  const Solver_options options_;
+};
+
+template <typename NT>
+Handle_turner<NT>::Handle_turner(const Triangulation& t, const Metric& metric, const Conformal_conditions<NT>& conditions,
+                                 const std::vector<Quantized_cone>& cones, int n, const std::vector<Prescribed_turning>& prescribed,
+                                 const Solver_options& options)
+  : t_(t), metric_(metric), conditions_(conditions), cones_(cones), n_(n), prescribed_(prescribed), options_(options)
+{}
+
+template <typename NT>
+Turned_handles Handle_turner<NT>::choose() const
+{
+  Turned_handles result;
+  result.loops = homology_basis(t_);
+  const Dual_loops loops = carried(result.loops);
+  const Triangulation s = scaled();
+  result.conformal_turnings = turnings(s, loops, Corner_angles(s));
+  const std::vector<Congruence> conditions = congruences(result.loops, result.conformal_turnings, result);
+  if(!bool(result))
+    return result;
+  const Congruent_vectors admitted(result.loops.size(), conditions, n_);
+  if(admitted.is_empty)
+  {
+    refuse_all(result);
+    return result;
+  }
+  // a torus without cones turns nowhere, and nothing can be deformed for that
+  const bool is_flat_torus = result.loops.size() == 2 && cones_.empty();
+  const std::vector<long> zero(result.loops.size(), 0);
+  if(!is_flat_torus && !result.loops.empty())
+    choose_among(admitted, result.conformal_turnings, loops, result);
+  else if(std::all_of(conditions.begin(), conditions.end(), [&](const Congruence& c) { return c.value % n_ == 0; }))
+    take(zero, result);
+  else
+    result.status = Status::NOT_REALIZABLE;
+  if(result.status == Status::NOT_REALIZABLE)
+  {
+    result.existence = Surface_existence::IMPOSSIBLE;
+    for(const Quantized_cone& cone : cones_)
+      result.vertices.push_back(cone.vertex);
+    refuse_all(result);
+  }
+  return result;
+}
+
+template <typename NT>
+Conformal_metric<NT> Handle_turner<NT>::turn(Turned_handles& handles, std::unique_ptr<Factorization> factorization) const
+{
+  if(are_turned(handles))
+    return metric_;
+  Turning_metric found = find(handles);
+  handles.set_outcome(found);
+  handles.number_of_steps += found.number_of_steps;
+  handles.number_of_flips = found.flips.size();
+  handles.residual = found.residual();
+  Metric result;
+  result.set_outcome(found);
+  if(!bool(found))
+    return result;
+
+  std::vector<Index> flips = metric_.flips;
+  flips.insert(flips.end(), found.flips.begin(), found.flips.end());
+  const Conformal_departure departure(flipped(flips), found.triangulation);
+  handles.mean_departure = departure.mean;
+  handles.largest_departure = departure.largest;
+  result = with_factors(found.triangulation, departure.u, std::move(factorization));
+  handles.status = result.status;
+  handles.amount = result.amount;
+  if(!bool(result))
+    return result;
+  for(Index e : result.flips)
+  {
+    found.loops.flip(found.triangulation, e);
+    found.triangulation.flip_edge(e, found.triangulation.length(e));
+  }
+  flips.insert(flips.end(), result.flips.begin(), result.flips.end());
+  result.flips = std::move(flips);
+  std::vector<NT> lengths;
+  for(Index e = 0; e < result.triangulation.number_of_edges(); ++e)
+    lengths.push_back(result.scaled_length(result.triangulation.edge_halfedge(e)));
+  const Triangulation s = result.triangulation.with_lengths(std::move(lengths));
+  const std::vector<double> turned = turnings(s, found.loops, Corner_angles(s));
+  const Turning_targets target = targets(handles.quanta);
+  handles.residual = 0;
+  for(std::size_t i = 0; i < turned.size(); ++i)
+    handles.residual = (std::max)(handles.residual, std::abs(turned[i] - target.turning[i]));
+  return result;
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
+extern template Handle_turner<double>::Handle_turner(const Intrinsic_triangulation<double>&, const Conformal_metric<double>&,
+                                                     const Conformal_conditions<double>&, const std::vector<Quantized_cone>&, int,
+                                                     const std::vector<Prescribed_turning>&, const Solver_options&);
+extern template Turned_handles Handle_turner<double>::choose() const;
+extern template Conformal_metric<double> Handle_turner<double>::turn(Turned_handles&, std::unique_ptr<Factorization>) const;
+#endif
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_HANDLE_TURNER_H
