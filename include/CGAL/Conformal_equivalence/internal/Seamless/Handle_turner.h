@@ -29,7 +29,7 @@
 #include <CGAL/Conformal_equivalence/internal/Seamless/Seamless_signature.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Turning_equations.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Turning_newton.h>
-#include <CGAL/Conformal_equivalence/internal/Seamless/closest_vector.h>
+#include <CGAL/Conformal_equivalence/internal/Lattices/closest_vector.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/congruent_vectors.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/homology_basis.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/loop_classes.h>
