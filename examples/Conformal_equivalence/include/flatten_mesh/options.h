@@ -13,6 +13,8 @@
 
 namespace flattening {
 
+const unsigned int most_bits = 16384; // that --precision takes
+
 enum class Target { PLANE, SPHERE, DISK, HYPERBOLIC };
 
 // The command line, as values.

@@ -18,7 +18,7 @@
 
 namespace flattening {
 
-const unsigned int bits_of_double = 53, most_bits = 16384; // of --precision
+const unsigned int bits_of_double = 53;
 
 // A point of the plane with many digits.
 class Wide_point

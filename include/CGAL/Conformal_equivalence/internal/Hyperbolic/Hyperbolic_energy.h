@@ -17,7 +17,6 @@
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/hyperbolic_triangle.h>
-#include <CGAL/Conformal_equivalence/internal/Numbers/Complex_number.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
@@ -262,7 +261,9 @@ template <typename NT, typename Wide>
 Scaled_vector hyperbolic_residual(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, const Conformal_conditions<NT>& conditions)
 {
   std::vector<Wide_angle_sum<Wide> > sum(t.number_of_vertices());
-  const Hyperbolic_edges<Wide> edges(wide_lengths(t, s));
+  std::vector<Wide> x(t.number_of_edges());
+  set_wide_lengths(t, s, 0, t.number_of_edges(), x);
+  const Hyperbolic_edges<Wide> edges(std::move(x));
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
   {
     const Hyperbolic_incircle_form<Wide> triangle = edges.sides_of_face(t, f).triangle();
@@ -275,22 +276,7 @@ Scaled_vector hyperbolic_residual(const Intrinsic_triangulation<NT>& t, const st
         sum[t.apex(3 * f + k)].add({Wide(0), Wide(1)});
     }
   }
-
-  std::vector<Complex_number<Wide> > z(t.number_of_vertices(), Complex_number<Wide>{Wide(1), Wide(0)});
-  const auto is_prescribed = [&](std::uint32_t v) { return !t.is_isolated_vertex(v) && !conditions.is_fixed(v); };
-  for(std::uint32_t v = 0; v < z.size(); ++v)
-    if(is_prescribed(v))
-      z[v] = sum[v].half_difference(conditions.angle_sum(v));
-  Scaled_vector result = twice_the_arguments(z);
-  for(std::uint32_t v = 0; v < z.size(); ++v)
-  {
-    const double turns = is_prescribed(v) ? sum[v].missing_turns(conditions.angle_sum(v), std::ldexp(result.entries[v], result.exponent)) : 0;
-    if(turns == 0)
-      continue;
-    result.scale_to_one();
-    result.entries[v] += turns;
-  }
-  return result;
+  return differences_from_targets(t, sum, conditions);
 }
 
 // The area of a face: with y = cosh(l/2),  sin(A/2) = sinh(s) r / (2 y_a y_b y_c),  cos(A/2) = (2 + x_a^2 + x_b^2 + x_c^2) / (2 y_a y_b y_c).

@@ -63,15 +63,13 @@ Scaled_vector twice_the_arguments(const std::vector<Complex_number<Wide> >& z, c
   return result;
 }
 
-// Theta~ - Theta^ at every vertex where the angle sum is prescribed, 0 elsewhere.
-// Broken triangles count as in the extended energy. `s[v]` = e^{u_v / 2}.
+// Theta~ - Theta^ at every vertex where the angle sum is prescribed, 0 elsewhere, for the angle sums Theta~.
 template <typename NT, typename Wide>
-Scaled_vector scaled_wide_residual(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s,
-                                   const Conformal_conditions<NT>& conditions, const Concurrency& concurrency = Concurrency())
+Scaled_vector differences_from_targets(const Intrinsic_triangulation<NT>& t, const std::vector<Wide_angle_sum<Wide> >& sum,
+                                       const Conformal_conditions<NT>& conditions, const Concurrency& concurrency = Concurrency())
 {
   typedef Complex_number<Wide> Complex;
   const std::uint32_t n = t.number_of_vertices();
-  const std::vector<Wide_angle_sum<Wide> > sum = wide_angle_sums(t, s, concurrency);
   std::vector<Complex> z(n, Complex{Wide(1), Wide(0)});
   const auto is_prescribed = [&](std::uint32_t v) { return !t.is_isolated_vertex(v) && !conditions.is_fixed(v); };
   concurrency.for_each_range(n, [&](std::size_t first, std::size_t last)
@@ -93,6 +91,14 @@ Scaled_vector scaled_wide_residual(const Intrinsic_triangulation<NT>& t, const s
     result.entries[v] += turns;
   }
   return result;
+}
+
+// The same for the metric with the scale factors s_v^2 = e^{u_v}. Broken triangles count as in the extended energy.
+template <typename NT, typename Wide>
+Scaled_vector scaled_wide_residual(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s,
+                                   const Conformal_conditions<NT>& conditions, const Concurrency& concurrency = Concurrency())
+{
+  return differences_from_targets(t, wide_angle_sums(t, s, concurrency), conditions, concurrency);
 }
 
 // The cotangent weights by edge, rounded to `Number` only at the end: those of the energy, for badly shaped triangles, too.
