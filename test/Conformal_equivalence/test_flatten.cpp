@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(figures_of_lion_head, * needs_mesh("lion-head.off"))
   Maps m(read_mesh("lion-head.off"));
   const Report report = m.flatten();
   BOOST_TEST_REQUIRE(bool(report), CE::message(report));
-  BOOST_TEST(report.statistics.number_of_iterations == 6u);
+  BOOST_TEST(report.statistics.number_of_iterations == 5u); // in `double`, until the steps in wide numbers follow
   BOOST_TEST(std::abs(least(m.u) + 4.468335) <= printed);
   BOOST_TEST(std::abs(largest(m.u)) <= printed);
   BOOST_TEST(report.topology.number_of_vertices == num_vertices(m.sm));
@@ -710,7 +710,8 @@ BOOST_AUTO_TEST_CASE(visitors)
   BOOST_TEST_REQUIRE(bool(report));
   BOOST_TEST((patient.stages == std::vector<CE::Stage>{ CE::Stage::IMPORT, CE::Stage::SOLVE, CE::Stage::CUT, CE::Stage::LAYOUT, CE::Stage::VERIFY }));
   BOOST_TEST(patient.residuals.size() == report.statistics.number_of_iterations + 1);
-  BOOST_TEST(patient.residuals.back() <= solver_tolerance);
+  BOOST_TEST(patient.residuals.back() <= 1e-7); // where the steps in wide numbers, of which it is not told, begin
+  BOOST_TEST(report.statistics.residual <= solver_tolerance);
 }
 
 // --- bad input ----------------------------------------------------------------------------------

@@ -470,7 +470,7 @@ BOOST_AUTO_TEST_CASE(wrong_usage)
   check_refused({"a.off", "--max-iterations", "-1"}, 2, "--max-iterations");
   check_refused({"a.off", "--threads", "0"}, 2, "--threads");
   check_refused({"a.off", "--solver", "abacus"}, 2, "simplicial");
-  for(const char* precision : { "quadruple", "", "1", "-200", "1e2", "4097" })
+  for(const char* precision : { "quadruple", "", "1", "-200", "1e2", "16385" })
     check_refused({"a.off", "--precision", precision}, 2, "--precision takes");
   check_refused({"a.off", "--cones", ""}, 2, "--cones needs the name of a file");
   check_refused({"a.off", "--cones", "auto"}, 2, "a file of this name: ./auto");

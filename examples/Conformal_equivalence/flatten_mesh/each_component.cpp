@@ -110,6 +110,7 @@ void take_over_conditions(const Component_mesh& part, const Conditions& found, c
   {
     whole.cone_angle[part.vertices[v.idx()]] = found.cone_angle[v];
     whole.is_constrained[part.vertices[v.idx()]] = found.is_constrained[v];
+    whole.u[part.vertices[v.idx()]] = found.u[v];
   }
 }
 

@@ -95,10 +95,10 @@ public:
   static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; } ///< the next side of the face, clockwise
   static Index face(Index h) { return h / 3; }                          ///< the face on the left of `h`
   static Index halfedge(Index f, Index k = 0) { return 3 * f + k; }     ///< the side `k` of the face `f`, one of 0, 1, 2
-  /// the three sides of the face `f`, counterclockwise.
-  static std::array<Index, 3> halfedges(Index f) { return {{ halfedge(f), halfedge(f, 1), halfedge(f, 2) }}; }
-  /// where the halfedge `h` is among the sides of its face: 0, 1 or 2.
-  static Index position_in_face(Index h) { return h % 3; }
+  static Index position_in_face(Index h) { return h % 3; }              ///< the `k` of `h`
+
+  /// returns the three sides of the face `f`, counterclockwise.
+  static std::array<Index, 3> halfedges(Index f) { return {{halfedge(f), halfedge(f, 1), halfedge(f, 2)}}; }
 
   Index origin(Index h) const { return origin_[h]; }                    ///< the vertex where `h` begins
   Index target(Index h) const { return origin_[next(h)]; }              ///< the vertex where `h` ends
