@@ -92,7 +92,7 @@ find_rectangle_corners(const Imported_mesh<TriangleMesh>& mesh, typename boost::
   if(!bool(report))
     return corners;
   const std::uint32_t first = mesh.triangulation.next_on_border(mesh.index_of_halfedge(opposite(bhd, mesh.mesh())));
-  const Rectangle_corners found = select_rectangle_corners(mesh.triangulation, first, retriangulation);
+  const Rectangle_corners found = internal::select_rectangle_corners(mesh.triangulation, first, retriangulation);
   report.status = found.status;
   report.amount = found.amount;
   name_elements(mesh, found.vertices, {}, {}, report);
