@@ -421,7 +421,7 @@ BOOST_AUTO_TEST_CASE(target_disk_of_long_strips)
   const Folder folder;
   for(const testing::Index width : { 1, 2 })
   {
-    const std::string input = write_off(folder, "strip.off", testing::strip(width == 1 ? 400 : 1200, width));
+    const std::string input = write_off(folder, "strip.off", testing::strip(width == 1 ? 1000 : 1200, width));
     const Run refused = run({input, "-o", folder / "i.obj", "--target", "disk"});
     BOOST_TEST(refused.status == 1);
     BOOST_TEST(contains(refused.err, "the scale factors leave the range of the number type: u ranges over "));

@@ -132,9 +132,13 @@ Lorentz_matrix<Number> rotation_matrix(double w0, double x0, double y0, double z
   return m;
 }
 
+// Of vectors so long or short that `double` could not go on with them only the direction is kept.
 template <typename Number>
 Light_vector<double> rounded(const Light_vector<Number>& v)
 {
+  const double size = static_cast<double>(v[3]);
+  if(v[3] > 0 && !(size > 1e-150 && size < 1e150))
+    return {{ static_cast<double>(Number(v[0] / v[3])), static_cast<double>(Number(v[1] / v[3])), static_cast<double>(Number(v[2] / v[3])), 1. }};
   return {{ static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]), static_cast<double>(v[3]) }};
 }
 
