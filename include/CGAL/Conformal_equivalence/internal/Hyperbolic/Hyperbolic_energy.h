@@ -32,7 +32,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -143,9 +142,7 @@ public:
   template <typename Scale>
   bool make_delaunay(const std::vector<Scale>& s)
   {
-    std::vector<Index> all(t_.number_of_edges());
-    std::iota(all.begin(), all.end(), Index(0));
-    return flip(s, std::move(all));
+    return flip(s, all_edges(t_));
   }
 
 private:
@@ -229,7 +226,7 @@ private:
     if(!(excess(x[0], x[1], x[2]) > 0 && excess(x[1], x[2], x[0]) > 0 && excess(x[2], x[0], x[1]) > 0))
       without_circle_.push_back(f);
     const Hyperbolic_incircle_form<double> triangle = sides.triangle();
-    if(triangle.is_triangle && triangle.r > 0)
+    if(!triangle.is_broken())
     {
       const std::array<double, 3> w = hyperbolic_weights(x, triangle);
       const double unit = 1 / triangle.s;
@@ -265,17 +262,7 @@ Scaled_vector hyperbolic_residual(const Intrinsic_triangulation<NT>& t, const st
   set_wide_lengths(t, s, 0, t.number_of_edges(), x);
   const Hyperbolic_edges<Wide> edges(std::move(x));
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
-  {
-    const Hyperbolic_incircle_form<Wide> triangle = edges.sides_of_face(t, f).triangle();
-    const double unit = 1 / static_cast<double>(triangle.s);
-    for(std::uint32_t k = 0; k < 3; ++k)
-    {
-      if(triangle.is_triangle && triangle.r > 0)
-        sum[t.apex(3 * f + k)].add({Wide(triangle.tangent[k] * unit), Wide(triangle.r * unit)});
-      else if(!(triangle.tangent[k] > 0))
-        sum[t.apex(3 * f + k)].add({Wide(0), Wide(1)});
-    }
-  }
+    add_corners(t, f, edges.sides_of_face(t, f).triangle(), sum);
   return differences_from_targets(t, sum, conditions);
 }
 

@@ -17,10 +17,12 @@
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/tell_flips.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/feasibility.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/line_search.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
@@ -286,8 +288,7 @@ private:
         size = next_size;
         return true;
       }
-      const double secant = std::isfinite(next_size) && next_slope < slope ? slope / (slope - next_slope) : 0.1;
-      t *= (std::min)(0.7, (std::max)(0.1, secant));
+      t = shorter_step(t, slope, next_slope);
     }
     size = evaluate(u_, r);
     return false;
@@ -343,7 +344,7 @@ private:
       if(d[v] != 0)
       {
         const Wide step = ldexp(Wide(d[v]), residual.exponent);
-        moved[v] = s[v] + s[v] * (step / 2 + step * step / 8);
+        moved[v] = factor_after_step(s[v], step);
       }
     Scaled_vector next = hyperbolic_residual(metric_.triangulation, moved, conditions_);
     const Wide next_size = next.template largest<Wide>();
@@ -361,11 +362,7 @@ private:
   {
     Statistics& statistics = metric_.statistics;
     metric_.flips.insert(metric_.flips.end(), energy_->flips().begin(), energy_->flips().end());
-    statistics.number_of_flips = metric_.flips.size();
-    statistics.number_of_filter_failures = energy_->flipper().counts().filter_failures;
-    statistics.number_of_exact_decisions = energy_->flipper().counts().exact_decisions;
-    statistics.conformal_class = options_.retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
-                                                                                     : Conformal_class::GIVEN_TRIANGULATION;
+    tell_flips(options_.retriangulation, energy_->flipper(), metric_);
     if(!is_success(metric_.status))
     {
       metric_.faces = energy_->broken_faces();
@@ -373,10 +370,6 @@ private:
       metric_.scale_factors.clear();
       return;
     }
-    const Delaunay_verdict verdict = energy_->flipper().verdict(metric_.scale_factors);
-    statistics.delaunay = verdict.is_exact         ? Delaunay_property::EXACT
-                        : verdict.is_within_bounds ? Delaunay_property::WITHIN_ROUNDING
-                                                   : Delaunay_property::NO;
     for(const Wide& s : metric_.scale_factors)
       metric_.log_scale_factors.push_back(logarithm_of_factor<NT>(s));
     judge();

@@ -56,20 +56,13 @@ struct Hyperbolic_incircle_form
   {
     is_triangle = tangent[0] > 0 && tangent[1] > 0 && tangent[2] > 0;
     if(is_triangle)
-      r = radius();
+      r = incircle_radius(tangent, s);
   }
+
+  // Are its angles pi, 0 and 0?
+  bool is_broken() const { return !is_triangle || !(r > 0); }
 
 private:
-  // By powers where the products neither over- nor underflow.
-  NT radius() const
-  {
-    using std::sqrt;
-    const NT product = tangent[0] * tangent[1] * tangent[2] / s, least_safe(1e-200), greatest_safe(1e200);
-    if(product > least_safe && product < greatest_safe)
-      return sqrt(product);
-    return sqrt(tangent[0]) * sqrt(tangent[1]) * (sqrt(tangent[2]) / sqrt(s));
-  }
-
   static NT sine(const std::array<NT, 3>& x, const std::array<NT, 3>& y, int k)
   {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -93,7 +86,7 @@ std::array<NT, 3> hyperbolic_weights(const std::array<NT, 3>& x, const Hyperboli
   using std::sqrt;
   std::array<NT, 3> result;
   const Incircle_form<NT> chords(x[0], x[1], x[2]);
-  if(chords.is_triangle && chords.r > 0)
+  if(!chords.is_broken())
   {
     const NT sinh_radius = x[0] / chords.r * (x[1] / chords.s) * x[2] / 2;
     const NT unit = 1 / (2 * sqrt(NT(1 + sinh_radius * sinh_radius)));

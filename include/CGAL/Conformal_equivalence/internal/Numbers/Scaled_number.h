@@ -16,27 +16,26 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// The exponent of a number that is finite and not 0.
+template <typename NT>
+int binary_exponent(const NT& x)
+{
+  using std::frexp;
+  int exponent = 0;
+  if constexpr(std::numeric_limits<NT>::max_exponent > std::numeric_limits<double>::max_exponent)
+    (void) frexp(x, &exponent);
+  else
+    (void) std::frexp(static_cast<double>(x), &exponent);
+  return exponent;
+}
+
 // x 2^-exponent in [1/2, 1)
 template <typename NT>
 NT mantissa(const NT& x, int& exponent)
 {
-  using std::frexp;
   using std::ldexp;
-  if constexpr(std::numeric_limits<NT>::max_exponent > std::numeric_limits<double>::max_exponent)
-    return frexp(x, &exponent);
-  else
-  {
-    (void) std::frexp(static_cast<double>(x), &exponent);
-    return ldexp(x, -exponent);
-  }
-}
-
-// The exponent of a number that is finite and not 0.
-inline int binary_exponent(double x)
-{
-  int exponent;
-  std::frexp(x, &exponent);
-  return exponent;
+  exponent = binary_exponent(x);
+  return ldexp(x, -exponent);
 }
 
 // The number `mantissa` 2^`exponent`. The mantissa is anything in the middle of its range, not always near 1.

@@ -35,6 +35,22 @@ struct To_double_double
   }
 };
 
+// A number of any range, with its exponent apart.
+struct To_scaled
+{
+  template <typename NT>
+  Scaled_number<Double_double> operator()(const NT& x) const
+  {
+    int exponent = 0;
+    const NT m = mantissa(x, exponent);
+    return Scaled_number<Double_double>(To_double_double()(m), exponent);
+  }
+  Scaled_number<Double_double> operator()(const Scaled_number<double>& x) const
+  {
+    return Scaled_number<Double_double>(Double_double(x.mantissa), x.exponent);
+  }
+};
+
 template <typename NT> struct has_exponent_apart : std::false_type {};
 template <typename NT> struct has_exponent_apart<Scaled_number<NT> > : std::true_type {};
 

@@ -69,6 +69,15 @@ struct Delaunay_verdict
   std::vector<std::uint32_t> edges; // of which neither is true
 };
 
+/// The numbers of all edges of `t`.
+template <typename NT>
+std::vector<std::uint32_t> all_edges(const Intrinsic_triangulation<NT>& t)
+{
+  std::vector<std::uint32_t> result(t.number_of_edges());
+  std::iota(result.begin(), result.end(), std::uint32_t(0));
+  return result;
+}
+
 /// Makes a triangulation Delaunay by flips, again and again as the scale factors change. As long as it is used no one else
 /// changes the triangulation. The lengths at the construction are taken for exact.
 template <typename NT>
@@ -124,10 +133,7 @@ public:
   template <typename Scale>
   bool flip_to_delaunay(const std::vector<Scale>& s, Flip_rule rule)
   {
-    std::vector<Index> all(t_.number_of_edges());
-    for(Index e = 0; e < t_.number_of_edges(); ++e)
-      all[e] = e;
-    return flip_to_delaunay(s, std::move(all), rule);
+    return flip_to_delaunay(s, all_edges(t_), rule);
   }
 
   const std::vector<Index>& unfinished_edges() const { return unfinished_; }
@@ -201,6 +207,8 @@ private:
       return result;
     if(!has_positive_numbers(t_, e, s))
       return State::NOT_DELAUNAY;
+    if(filtered_difference(converted_quad<Scaled_number<Double_double> >(t_, e, s, To_scaled(), To_scaled()), d) && is_decided(d, bound, result))
+      return result;
     ++counts_.exact_decisions;
     is_decided(exact_difference(quad<Exact_number>(t_, e, s, To_exact())), bound, result);
     return result;
@@ -258,9 +266,7 @@ bool make_intrinsic_delaunay(Intrinsic_triangulation<NT>& t, std::vector<std::ui
       broken_faces.push_back(h / 3);
   if(!broken_faces.empty())
     return false;
-  std::vector<std::uint32_t> all(t.number_of_edges());
-  std::iota(all.begin(), all.end(), std::uint32_t(0));
-  Delaunay_flipper<NT>(t).flip_to_delaunay(std::vector<double>(), std::move(all), Flip_rule::EUCLIDEAN, on_flip);
+  Delaunay_flipper<NT>(t).flip_to_delaunay(std::vector<double>(), all_edges(t), Flip_rule::EUCLIDEAN, on_flip);
   return true;
 }
 

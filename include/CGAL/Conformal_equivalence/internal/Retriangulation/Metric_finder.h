@@ -21,6 +21,7 @@
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/ideal_delaunay_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/resolve_degenerate_faces.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/tell_flips.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Fixed_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
@@ -344,16 +345,7 @@ private:
   static void tell_about_flips(Ideal_delaunay_energy<NT>& energy, double seconds_before, const Solver_options& options, Metric& result)
   {
     const Stopwatch stopwatch;
-    tell_flips(options.retriangulation, result);
-    result.statistics.number_of_filter_failures = energy.flipper().counts().filter_failures;
-    result.statistics.number_of_exact_decisions = energy.flipper().counts().exact_decisions;
-    if(is_success(result.status))
-    {
-      const Delaunay_verdict verdict = energy.flipper().verdict(result.scale_factors);
-      result.statistics.delaunay = verdict.is_exact         ? Delaunay_property::EXACT
-                                 : verdict.is_within_bounds ? Delaunay_property::WITHIN_ROUNDING
-                                                            : Delaunay_property::NO;
-    }
+    tell_flips(options.retriangulation, energy.flipper(), result);
     result.statistics.seconds.flips = seconds_before + energy.seconds_of_flips() + stopwatch.seconds();
   }
 

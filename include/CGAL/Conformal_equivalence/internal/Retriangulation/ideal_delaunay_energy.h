@@ -21,7 +21,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -117,9 +116,7 @@ public:
   bool make_delaunay(const std::vector<Scale>& s, const std::vector<double>& u)
   {
     const Timer timer(seconds_);
-    std::vector<Index> all(t_.number_of_edges());
-    std::iota(all.begin(), all.end(), Index(0));
-    if(!flip(s, std::move(all)))
+    if(!flip(s, all_edges(t_)))
       return false;
     Base::evaluate(u);
     return true;

@@ -13,7 +13,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_RESOLVE_DEGENERATE_FACES_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/Statistics.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/tell_flips.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
@@ -93,15 +93,6 @@ std::vector<std::uint32_t> resolve_degenerate_faces(Intrinsic_triangulation<NT>&
     suspects.push_back(g / 3);
   }
   return flips;
-}
-
-// Tells a result that flips have led to how many there were, and to what surface it is conformally equivalent.
-template <typename Result>
-void tell_flips(Retriangulation retriangulation, Result& result)
-{
-  result.statistics.number_of_flips = result.flips.size();
-  result.statistics.conformal_class = retriangulation == Retriangulation::ALWAYS ? Conformal_class::DELAUNAY_TRIANGULATION
-                                                                                 : Conformal_class::GIVEN_TRIANGULATION;
 }
 
 // Tells a result, found on the triangulation that these flips have led to, that they came before all others.

@@ -49,7 +49,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -170,26 +169,33 @@ private:
 
   // ---- The metric given
 
-  // With the scaled lengths.
-  Triangulation scaled() const
+  Triangulation scaled() const { return scaled(metric_); }
+
+  // The triangulation of a metric, with the scaled lengths.
+  static Triangulation scaled(const Metric& metric)
   {
     std::vector<NT> lengths;
-    for(Index e = 0; e < metric_.triangulation.number_of_edges(); ++e)
-      lengths.push_back(metric_.scaled_length(metric_.triangulation.edge_halfedge(e)));
-    return metric_.triangulation.with_lengths(std::move(lengths));
+    for(Index e = 0; e < metric.triangulation.number_of_edges(); ++e)
+      lengths.push_back(metric.scaled_length(metric.triangulation.edge_halfedge(e)));
+    return metric.triangulation.with_lengths(std::move(lengths));
   }
 
   // On the triangulation of the metric.
   Dual_loops carried(const std::vector<Loop>& given) const
   {
     Dual_loops loops(t_, given);
-    Triangulation t = t_;
-    for(Index e : metric_.flips)
+    carry(metric_.flips, t_, loops);
+    return loops;
+  }
+
+  // Through flips, of which the lengths do not matter.
+  static void carry(const std::vector<Index>& flips, Triangulation t, Dual_loops& loops)
+  {
+    for(Index e : flips)
     {
       loops.flip(t, e);
       t.flip_edge(e, t.length(e));
     }
-    return loops;
   }
 
   // ---- What is prescribed
@@ -302,9 +308,7 @@ private:
   Eigen::MatrixXd deformation_form(Dual_loops loops) const
   {
     Triangulation s = scaled();
-    std::vector<Index> all(s.number_of_edges());
-    std::iota(all.begin(), all.end(), Index(0));
-    Delaunay_flipper<NT>(s).flip_to_delaunay(std::vector<double>(), std::move(all), Flip_rule::PTOLEMY, [&](Index e) { loops.flip(s, e); });
+    Delaunay_flipper<NT>(s).flip_to_delaunay(std::vector<double>(), all_edges(s), Flip_rule::PTOLEMY, [&](Index e) { loops.flip(s, e); });
     const Turning_rows rows(s);
     const Eigen::Index n = Eigen::Index(loops.size()), first = rows.number_of_vertices();
     Turning_equations equations(s, loops, rows, Corner_angles(s));
@@ -338,11 +342,17 @@ private:
   bool are_turned(Turned_handles& handles) const
   {
     const double rounding = 1e-9; // of turnings in a metric of `double`s, amply
-    const Turning_targets target = targets(handles.quanta);
-    handles.residual = 0;
-    for(std::size_t i = 0; i < target.turning.size(); ++i)
-      handles.residual = (std::max)(handles.residual, std::abs(handles.conformal_turnings[i] - target.turning[i]));
+    handles.residual = largest_difference(handles.conformal_turnings, handles.quanta);
     return handles.residual < rounding;
+  }
+
+  // Of turnings from their targets (radians).
+  double largest_difference(const std::vector<double>& turning, const std::vector<long>& quanta) const
+  {
+    double result = 0;
+    for(std::size_t i = 0; i < turning.size(); ++i)
+      result = (std::max)(result, std::abs(turning[i] - double(quanta[i]) * quantum()));
+    return result;
   }
 
   // For the nearest turnings; if the method is not on its way to an end soon, for others, and what is found is put into `handles`.
@@ -474,22 +484,11 @@ Conformal_metric<NT> Handle_turner<NT>::turn(Turned_handles& handles, std::uniqu
   handles.amount = result.amount;
   if(!bool(result))
     return result;
-  for(Index e : result.flips)
-  {
-    found.loops.flip(found.triangulation, e);
-    found.triangulation.flip_edge(e, found.triangulation.length(e));
-  }
+  carry(result.flips, found.triangulation, found.loops);
   flips.insert(flips.end(), result.flips.begin(), result.flips.end());
   result.flips = std::move(flips);
-  std::vector<NT> lengths;
-  for(Index e = 0; e < result.triangulation.number_of_edges(); ++e)
-    lengths.push_back(result.scaled_length(result.triangulation.edge_halfedge(e)));
-  const Triangulation s = result.triangulation.with_lengths(std::move(lengths));
-  const std::vector<double> turned = turnings(s, found.loops, Corner_angles(s));
-  const Turning_targets target = targets(handles.quanta);
-  handles.residual = 0;
-  for(std::size_t i = 0; i < turned.size(); ++i)
-    handles.residual = (std::max)(handles.residual, std::abs(turned[i] - target.turning[i]));
+  const Triangulation s = scaled(result);
+  handles.residual = largest_difference(turnings(s, found.loops, Corner_angles(s)), handles.quanta);
   return result;
 }
 

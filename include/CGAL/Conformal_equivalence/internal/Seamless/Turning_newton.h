@@ -26,7 +26,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -79,10 +78,8 @@ private:
 
   bool flip_to_delaunay(Turning_metric& metric) const
   {
-    std::vector<Index> all(metric.triangulation.number_of_edges());
-    std::iota(all.begin(), all.end(), Index(0));
     Delaunay_flipper<NT> flipper(metric.triangulation);
-    return flipper.flip_to_delaunay(std::vector<double>(), std::move(all), Flip_rule::PTOLEMY, [&](Index e)
+    return flipper.flip_to_delaunay(std::vector<double>(), all_edges(metric.triangulation), Flip_rule::PTOLEMY, [&](Index e)
     {
       metric.loops.flip(metric.triangulation, e);
       metric.flips.push_back(e);

@@ -193,7 +193,7 @@ private:
       if(d[v] != 0)
       {
         const Wide_number step = ldexp(Wide_number(d[v]), residual.exponent);
-        s[v] = s[v] + s[v] * (step / 2 + step * step / 8);
+        s[v] = factor_after_step(s[v], step);
       }
     return linear_.has_factor();
   }

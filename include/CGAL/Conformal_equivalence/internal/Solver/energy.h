@@ -68,12 +68,10 @@ public:
   // The length of `e` has changed.
   void update_length(Index e)
   {
-    using std::frexp;
     using std::ldexp;
     const Length& l = t_.length(e);
-    int exponent = exponent_;
-    if(l > 0 && l - l == Length(0)) // neither 0 nor no number
-      (void) frexp(l, &exponent);
+    const bool is_usual = l > 0 && l - l == Length(0); // neither 0 nor no number
+    const int exponent = is_usual ? binary_exponent(l) : exponent_;
     const int apart = set_apart(exponent - exponent_, e, t_.number_of_edges(), length_exponent_);
     length_[e] = static_cast<NT>(exponent_ + apart == 0 ? l : Length(ldexp(l, -(exponent_ + apart))));
   }

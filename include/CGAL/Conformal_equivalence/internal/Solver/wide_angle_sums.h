@@ -96,9 +96,9 @@ private:
   }
 };
 
-// Adds the corners of f, whose lengths are multiplied by `unit`: it has to be about the inverse of the semiperimeter.
-template <typename NT, typename Wide, typename Unit>
-void add_corners_of(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Incircle_form<Wide>& triangle, const Unit& unit,
+// Adds the corners of f, whose incircle form, flat or hyperbolic, is multiplied by `unit`: it has to be about the inverse of its `s`.
+template <typename NT, typename Triangle, typename Wide, typename Unit>
+void add_corners_of(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Triangle& triangle, const Unit& unit,
                     std::vector<Wide_angle_sum<Wide> >& sum)
 {
   typedef Complex_number<Wide> Complex;
@@ -111,17 +111,23 @@ void add_corners_of(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const
   }
 }
 
-// Adds the corners of f, of which `a`, `b` and `c` are the sides. Broken triangles count as in the extended energy.
-template <typename NT, typename Wide>
-void add_corners(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Wide& a, const Wide& b, const Wide& c,
-                 std::vector<Wide_angle_sum<Wide> >& sum)
+// Adds the corners of f. Broken triangles count as in the extended energy.
+template <typename NT, typename Triangle, typename Wide>
+void add_corners(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Triangle& triangle, std::vector<Wide_angle_sum<Wide> >& sum)
 {
-  const Incircle_form<Wide> triangle(a, b, c);
   const double s = static_cast<double>(triangle.s);
   if(std::isnormal(s))
     add_corners_of(t, f, triangle, 1 / s, sum);
   else // out of the range of `double`
     add_corners_of(t, f, triangle, Wide(1 / triangle.s), sum);
+}
+
+// The same by its sides `a`, `b` and `c`.
+template <typename NT, typename Wide>
+void add_corners(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Wide& a, const Wide& b, const Wide& c,
+                 std::vector<Wide_angle_sum<Wide> >& sum)
+{
+  add_corners(t, f, Incircle_form<Wide>(a, b, c), sum);
 }
 
 // The same for `Double_double`, by vectors: of a few triangles, and then, triangle by triangle, of its three corners, which are added to three

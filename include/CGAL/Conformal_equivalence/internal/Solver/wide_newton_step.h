@@ -68,7 +68,7 @@ bool add_wide_newton_step(const Edge_graph& graph, const std::vector<Wide>& weig
     if(graph.is_free(v) && !graph.is_held(v))
     {
       const Wide step = ldexp(solution[graph.free_index[v]], residual.exponent);
-      s[v] = s[v] + s[v] * (step / 2 + step * step / 8);
+      s[v] = factor_after_step(s[v], step);
     }
   return true;
 }

@@ -108,8 +108,7 @@ private:
     const int largest = (std::max)({exponents_[corners[0]], exponents_[corners[1]], exponents_[corners[2]]});
     const auto vector = [&](int k) { return multiplied(polyhedron.vectors[corners[k]], exponents_[corners[k]] - largest); };
     const Light_vector<Wide> result = vector_across(h, vector(0), vector(1), vector(2));
-    int exponent = 0;
-    (void) mantissa(result[3], exponent);
+    const int exponent = binary_exponent(result[3]);
     polyhedron.vectors[v] = multiplied(result, -exponent);
     exponents_[v] = largest + exponent;
   }

@@ -125,16 +125,7 @@ bool is_in_range(const Quad<Real>& q, double from)
 }
 
 template <typename NT>
-int exponent_of(const NT& x)
-{
-  using std::frexp;
-  int result = 0;
-  (void) frexp(x, &result);
-  return result;
-}
-
-template <typename NT>
-int exponent_of(const Scaled_number<NT>& x) { return int(x.exponent); }
+int binary_exponent(const Scaled_number<NT>& x) { return int(x.exponent); }
 
 // The same with numbers out of the range of `Real`: of lengths, and of factors, the largest is brought near 1. Neither matters.
 template <typename Real, typename NT, typename Scale, typename Convert>
@@ -142,11 +133,11 @@ Quad<Real> shifted_quad(const Intrinsic_triangulation<NT>& t, std::uint32_t e, c
 {
   int length = (std::numeric_limits<int>::min)(), factor = length;
   for(const std::uint32_t x : quad_edges(t, e))
-    length = (std::max)(length, exponent_of(t.length(x)));
+    length = (std::max)(length, binary_exponent(t.length(x)));
   const std::uint32_t h = t.edge_halfedge(e);
   if(!s.empty())
     for(const std::uint32_t v : {t.origin(h), t.target(h), t.apex(h), t.apex(t.twin(h))})
-      factor = (std::max)(factor, exponent_of(s[v]));
+      factor = (std::max)(factor, binary_exponent(s[v]));
   return converted_quad<Real>(t, e, s, Shifted_conversion<Convert>{convert, length}, Shifted_conversion<Convert>{convert, factor});
 }
 
@@ -186,14 +177,19 @@ void scale_by_powers_of_two(Quad<Real>& q)
 
 // The two sides, divided by a common power of two, of numbers of which the ratio is beyond the range of the filter.
 template <typename Real>
+std::pair<Real, Real> ptolemy_sides_by_exponents(const Quad<Scaled_number<Real> >& q)
+{
+  const std::pair<Scaled_number<Real>, Scaled_number<Real> > sides = ptolemy_sides(q);
+  const std::int64_t larger = (std::max)(sides.first.exponent, sides.second.exponent);
+  return std::make_pair(sides.first.scaled_down(larger), sides.second.scaled_down(larger));
+}
+
+template <typename Real>
 std::pair<Real, Real> ptolemy_sides_by_exponents(const Quad<Real>& q)
 {
   typedef Scaled_number<Real> Number;
-  const Quad<Number> x{Number(q.e), Number(q.a), Number(q.b), Number(q.c), Number(q.d),
-                       Number(q.i), Number(q.j), Number(q.k), Number(q.l)};
-  const std::pair<Number, Number> sides = ptolemy_sides(x);
-  const std::int64_t larger = (std::max)(sides.first.exponent, sides.second.exponent);
-  return std::make_pair(sides.first.scaled_down(larger), sides.second.scaled_down(larger));
+  return ptolemy_sides_by_exponents(Quad<Number>{Number(q.e), Number(q.a), Number(q.b), Number(q.c), Number(q.d),
+                                                 Number(q.i), Number(q.j), Number(q.k), Number(q.l)});
 }
 
 // The relative difference (left - right) / (left + right) of the sides, as far as it is known.
@@ -201,6 +197,15 @@ struct Relative_difference
 {
   double value, error;
 };
+
+// \return `false` if a number is none
+template <typename Real>
+bool filtered_difference(const std::pair<Real, Real>& sides, Relative_difference& difference)
+{
+  difference.value = static_cast<double>(Real((sides.first - sides.second) / (sides.first + sides.second)));
+  difference.error = filter_error<Real>() + 1e-15 * std::fabs(difference.value);
+  return std::isfinite(difference.value);
+}
 
 // \return `false` if a number may have lost digits by underflow (or is no positive number)
 template <typename Real>
@@ -212,10 +217,14 @@ bool filtered_difference(const Quad<Real>& q, Relative_difference& difference)
   const bool is_near_one = is_in_filter_range(scaled);
   if(!is_near_one && !is_in_range(q, 1e-270))
     return false;
-  const std::pair<Real, Real> sides = is_near_one ? ptolemy_sides(scaled) : ptolemy_sides_by_exponents(q);
-  difference.value = static_cast<double>(Real((sides.first - sides.second) / (sides.first + sides.second)));
-  difference.error = filter_error<Real>() + 1e-15 * std::fabs(difference.value);
-  return std::isfinite(difference.value);
+  return filtered_difference(is_near_one ? ptolemy_sides(scaled) : ptolemy_sides_by_exponents(q), difference);
+}
+
+// The same where no shift brings all numbers into the range of `double`: exact numbers that are so far apart would be long.
+// \pre All numbers are positive.
+inline bool filtered_difference(const Quad<Scaled_number<Double_double> >& q, Relative_difference& difference)
+{
+  return filtered_difference(ptolemy_sides_by_exponents(q), difference);
 }
 
 // the sign is exact, the value is rounded, never to 0

@@ -42,6 +42,18 @@ NT excess(const NT& a, const NT& b, const NT& c)
   return (longer - a) + shorter;
 }
 
+// sqrt(x y z / s), for x, y, z = `tangent`: by powers where the products neither over- nor underflow, which is always but for triangles
+// whose sides differ by some seventy orders of magnitude.
+template <typename NT>
+NT incircle_radius(const std::array<NT, 3>& tangent, const NT& s)
+{
+  using std::sqrt;
+  const NT product = tangent[0] * tangent[1] * tangent[2] / s, least_safe(1e-200), greatest_safe(1e200);
+  if(product > least_safe && product < greatest_safe)
+    return sqrt(product);
+  return sqrt(tangent[0]) * sqrt(tangent[1]) * (sqrt(tangent[2]) / sqrt(s));
+}
+
 // The incircle form of a triangle: its semiperimeter, r, and s-a, s-b, s-c.
 template <typename NT>
 struct Incircle_form
@@ -55,26 +67,11 @@ struct Incircle_form
   {
     is_triangle = tangent[0] > 0 && tangent[1] > 0 && tangent[2] > 0;
     if(is_triangle)
-      r = radius();
+      r = incircle_radius(tangent, s);
   }
 
   // Are its angles pi, 0 and 0? (So they are, too, where r comes to nothing by rounding.)
   bool is_broken() const { return !is_triangle || !(r > 0); }
-
-private:
-  // By powers where the products neither over- nor underflow, which is always
-  // but for triangles whose sides differ by some seventy orders of magnitude.
-  NT radius() const
-  {
-    using std::sqrt;
-    const NT product = tangent[0] * tangent[1] * tangent[2] / s;
-    if(product > least_safe() && product < greatest_safe())
-      return sqrt(product);
-    return sqrt(tangent[0]) * sqrt(tangent[1]) * (sqrt(tangent[2]) / sqrt(s));
-  }
-
-  static NT least_safe() { return NT(1e-200); }
-  static NT greatest_safe() { return NT(1e200); }
 };
 
 // The angle opposite to side `side` of a triangle, half-angle formula (6).
