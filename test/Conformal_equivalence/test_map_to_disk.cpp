@@ -748,6 +748,28 @@ BOOST_AUTO_TEST_CASE(long_strips)
   }
 }
 
+// One point of a terrain is as far away as it may be by a slip of the pen. Some conditions that are tried on the way have no solution, and u
+// falls for ever: that takes no time either.
+BOOST_AUTO_TEST_CASE(a_point_far_above_the_others)
+{
+  const double quarter = 0.3; // heights of 16 points
+  const int heights[] = {0, 3, 2, 0, 1, 1, 1, 1, 2, 3, 0, 0, 3, 1, 3, 1};
+  for(const double top : {1e3, 1e6, 1366114304., 1e12})
+  {
+    Soup soup = testing::flat_grid(3);
+    for(std::size_t v = 0; v < soup.points.size(); ++v)
+      soup.points[v] = {{3 * soup.points[v][0], 3 * soup.points[v][1], quarter * heights[v % 16]}};
+    soup.points[11][2] = top;
+    for(const Retriangulation retriangulation : {Retriangulation::WHEN_NEEDED, Retriangulation::ALWAYS})
+    {
+      Maps m(soup);
+      const Report report = m.map(params::retriangulation(retriangulation).number_of_iterations(20));
+      BOOST_TEST_CONTEXT(top << ": " << CE::message(report))
+      BOOST_TEST(bool(report)); // every triangle has its orientation, exactly
+    }
+  }
+}
+
 // Points of the disk, with the border on the circle, are their own image, up to a Moebius transformation.
 BOOST_AUTO_TEST_CASE(disks)
 {

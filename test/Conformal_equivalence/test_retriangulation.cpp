@@ -676,6 +676,45 @@ BOOST_AUTO_TEST_CASE(numbers_far_apart_need_no_rationals)
   BOOST_TEST(flips > 200u);
 }
 
+// Exact numbers with as many digits as exponents are apart would not fit into any memory.
+BOOST_AUTO_TEST_CASE(factors_of_any_exponent)
+{
+  typedef CEi::Scaled_number<double> Scaled;
+  Random random(62);
+  const auto apart = [&]() { return std::int64_t(1000000000) * (std::int64_t(random.below(2001)) - 1000); };
+  for(int n = 0; n < 1000; ++n)
+  {
+    // The logarithms of both sides, which are sums of two terms each, are known up to log 2: they tell which is larger.
+    const CEi::Quad<double> q = random_quad(random, 1, false);
+    const CEi::Quad<Scaled> r{Scaled(q.e), Scaled(q.a), Scaled(q.b), Scaled(q.c), Scaled(q.d),
+                              Scaled(q.i, apart()), Scaled(q.j, apart()), Scaled(q.k, apart()), Scaled(q.l, apart())};
+    const std::int64_t i = r.i.exponent, j = r.j.exponent, k = r.k.exponent, l = r.l.exponent;
+    const std::int64_t left = 2 * ((std::max)(i, j) + k + l), right = 2 * (i + j + (std::max)(k, l));
+    const CEi::To_scaled wide;
+    const CEi::Quad<CEi::Scaled_number<Double_double> > x{wide(r.e), wide(r.a), wide(r.b), wide(r.c), wide(r.d),
+                                                          wide(r.i), wide(r.j), wide(r.k), wide(r.l)};
+    CEi::Relative_difference d;
+    BOOST_REQUIRE(CEi::filtered_difference(x, d));
+    if(left != right)
+      BOOST_REQUIRE_EQUAL(d.value, left > right ? 1. : -1.);
+    // one power of two for all of them does not matter
+    const CEi::Quad<CEi::Scaled_number<Double_double> > near_one{wide(q.e), wide(q.a), wide(q.b), wide(q.c), wide(q.d),
+                                                                 wide(Scaled(q.i, i)), wide(Scaled(q.j, i)), wide(Scaled(q.k, i)), wide(Scaled(q.l, i))};
+    CEi::Relative_difference f, g;
+    BOOST_REQUIRE(CEi::filtered_difference(near_one, f) && CEi::filtered_difference(converted<Double_double>(q), g));
+    BOOST_TEST(std::fabs(f.value - g.value) <= f.error + g.error);
+  }
+
+  Triangulation t = testing::triangulation(testing::icosahedron());
+  std::vector<Scaled> s;
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    s.emplace_back(random(1, 2), apart());
+  Flipper flipper(t);
+  BOOST_REQUIRE(flipper.flip_to_delaunay(s, Flip_rule::PTOLEMY));
+  BOOST_TEST(flipper.counts().flips > 0u);
+  BOOST_TEST(flipper.counts().exact_decisions == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(predicate_is_the_in_circle_test)
 {
   typedef CGAL::Exact_predicates_exact_constructions_kernel Kernel;

@@ -291,10 +291,13 @@ private:
     const bool is_far_from_end = part < 1 && !is_cut_further && remaining_slope > 0.25;
     short_steps_ = is_far_from_end ? short_steps_ + 1 : 0;
     if(is_far_from_end && (short_steps_ > a_while || (part <= 0.01 && remaining_slope > 0.5)))
-      reach_ *= 2;
+      reach_ = (std::min)(2 * reach_, longest_reach());
     else if(part == 1 || is_cut_further || remaining_slope <= 0)
       reach_ = least_reach;
   }
+
+  // Where there is no minimum E may fall for ever. On strips and the like u ranges over one or two a vertex, and over what lengths range.
+  double longest_reach() const { return 1500 + 2. * double(solver_.graph().number_of_free); }
 
   // The factor for the trust region is that of the first metric again: a Hessian at broken triangles makes a
   // bad norm. Where no triangle is broken and little is left to do, it is rounding that keeps the line search from going on.
