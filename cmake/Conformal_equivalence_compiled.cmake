@@ -17,3 +17,6 @@ if(TARGET Conformal_equivalence::TBB_support) # what the library does with threa
 endif()
 target_compile_definitions(Conformal_equivalence_compiled INTERFACE CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED)
 conformal_equivalence_set_flags(Conformal_equivalence_compiled)
+if(CONFORMAL_EQUIVALENCE_SANITIZERS) # most of what tests do is done here: not optimized it would take thrice as long
+  target_compile_options(Conformal_equivalence_compiled PRIVATE -O1)
+endif()
