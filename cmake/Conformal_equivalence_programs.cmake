@@ -28,6 +28,17 @@ foreach(_kind test examples benchmark)
   endif()
 endforeach()
 
+# The program alone, where it does not come with the examples.
+if(CONFORMAL_EQUIVALENCE_BUILD_PROGRAM AND NOT TARGET flatten_mesh)
+  include(examples/Conformal_equivalence/flatten_mesh/flatten_mesh_program.cmake)
+  flatten_mesh_add_library(flatten_mesh_program)
+  if(NOT TARGET flatten_mesh_program)
+    message(FATAL_ERROR "Conformal_equivalence: flatten_mesh needs Boost.Program_options, which was not found")
+  endif()
+  add_executable(flatten_mesh examples/Conformal_equivalence/flatten_mesh.cpp)
+  target_link_libraries(flatten_mesh PRIVATE flatten_mesh_program)
+endif()
+
 # ---------------------------------------------------- precompiled headers ----
 
 # What nearly all programs include of other libraries, precompiled once: that is a third of their time of compiling. Not of this

@@ -38,7 +38,8 @@ po::options_description visible_options()
 {
   po::options_description options("Options", 110, 76); // longer names of values have a line of their own
   options.add_options()
-    ("output,o", word("FILE"), "write the mesh with the layout as texture coordinates to this OBJ file, and a material (.mtl, .checker.png) beside it")
+    ("output,o", word("FILE"), "write the mesh with the layout as texture coordinates to this OBJ file, "
+                               "and a material (.mtl, .checker.png) beside it")
     ("svg", word("FILE"), "draw the layout")
     ("html", word("FILE"), "write a page that shows the textured mesh and the layout")
     ("report", word("FILE"), "write the figures as JSON; of several inputs, those of all as one array, unless the name has a %")

@@ -171,9 +171,12 @@ std::string zsh_completion()
     if(! option.value.empty() && ! is_optional(option))
     {
       const Completions c = completions(option.value);
-      const std::string words = c.words.empty() ? "" : "compadd -- " + joined(c.words);
-      const std::string files = c.files ? "_files" : c.folders ? "_files -/" : "";
-      value = ":value:" + (words.empty() && files.empty() ? std::string(" ") : "{ " + words + (words.empty() || files.empty() ? "" : "; ") + files + " }");
+      std::vector<std::string> commands;
+      if(! c.words.empty())
+        commands.push_back("compadd -- " + joined(c.words));
+      if(c.files || c.folders)
+        commands.push_back(c.files ? "_files" : "_files -/");
+      value = ":value:" + (commands.empty() ? std::string(" ") : "{ " + joined(commands, "; ") + " }");
     }
     const std::string times = option.name == "boundary" ? "*" : "";
     if(option.letter.empty())

@@ -28,11 +28,7 @@ struct Given_option
 // The command line, as values.
 struct Options
 {
-  std::vector<std::string> inputs;                    // all of them
-  std::string input, obj, svg, html, report;          // of one of them (several_inputs.h); before, names of outputs have a % for it
-  bool is_report_joint = false;                       // the file of the report is that of all inputs
-  std::string format;                                 // of the inputs; empty: as they tell themselves
-  std::vector<Given_option> given;
+  std::string input, obj, svg, html, report;          // of one input (several_inputs.h); before, names of outputs may have a % for it
   Target target = Target::PLANE;
   std::optional<std::size_t> vertex_at_infinity, disk_centre;
   std::optional<std::array<std::size_t, 3> > disk_points;
@@ -63,6 +59,10 @@ struct Options
   std::string solver;
   bool is_help = false, is_version = false;
   std::string printed;                                // what --print is asked for
+  std::vector<std::string> inputs;                    // all of them
+  std::string format;                                 // of the inputs; empty: as they tell themselves
+  bool is_report_joint = false;                       // all inputs have one report
+  std::vector<Given_option> given;
 };
 
 std::string help_text();
