@@ -44,11 +44,11 @@ compare()
 {
   names | diff options - > difference || { failed "the options of $1 are not those of the program (<):"; cat difference; }
 }
-sed -n '/^\.TP/{n;p}' man | sed 's/\\//g' | sed 's/fB/ /g' | compare "the manual page"
-sed -nE '/compgen -W .*--/p' bash | sed -E "s/\\\\n/ /g; s/\\$'/ /; s/ -- .*//" | compare "the completion of bash"
-sed "s/[*'{,]/ /g" zsh | sed 's/\[.*//' | compare "the completion of zsh"
-sed -nE 's/.* -l ([a-z-]+).*/ --\1/p' fish | compare "the completion of fish"
-sed -n 's/<dt>\(.*\)<\/dt>.*/\1/p' "$source/doc/Conformal_equivalence/Program_options.txt" | compare "the manual"
+compare "the manual page"         < <(sed -n '/^\.TP/{n;p}' man | sed -E 's/\\f[BIR]/ /g; s/\\//g')
+compare "the completion of bash"  < <(sed -nE '/compgen -W .*--/p' bash | sed -E "s/\\\\n/ /g; s/\\$'/ /; s/ -- .*//")
+compare "the completion of zsh"   < <(sed "s/[*'{,]/ /g" zsh | sed 's/\[.*//')
+compare "the completion of fish"  < <(sed -nE 's/.* -l ([a-z-]+).*/ --\1/p' fish)
+compare "the manual"              < <(sed -n 's/<dt>\(.*\)<\/dt>.*/\1/p' "$source/doc/Conformal_equivalence/Program_options.txt")
 
 # every other mention is of an option that there is (these are of other programs)
 for file in README.md doc/Conformal_equivalence/Conformal_equivalence.txt doc/Conformal_equivalence/Program_options.txt CHANGES.md; do
