@@ -28,6 +28,17 @@ foreach(_kind test examples benchmark)
   endif()
 endforeach()
 
+# The program alone, where it does not come with the examples.
+if(CONFORMAL_EQUIVALENCE_BUILD_PROGRAM AND NOT TARGET flatten_mesh)
+  include(examples/Conformal_equivalence/flatten_mesh/flatten_mesh_program.cmake)
+  flatten_mesh_add_library(flatten_mesh_program)
+  if(NOT TARGET flatten_mesh_program)
+    message(FATAL_ERROR "Conformal_equivalence: flatten_mesh needs Boost.Program_options, which was not found")
+  endif()
+  add_executable(flatten_mesh examples/Conformal_equivalence/flatten_mesh.cpp)
+  target_link_libraries(flatten_mesh PRIVATE flatten_mesh_program)
+endif()
+
 # ---------------------------------------------------- precompiled headers ----
 
 # What nearly all programs include of other libraries, precompiled once: that is a third of their time of compiling. Not of this
@@ -152,6 +163,30 @@ function(conformal_equivalence_flatten_and_check _name _mesh)
   endif()
 endfunction()
 
+# Options, several inputs, pipes and reports, those of the runs above among them.
+function(conformal_equivalence_test_program_interface)
+  find_program(CONFORMAL_EQUIVALENCE_BASH bash)
+  mark_as_advanced(CONFORMAL_EQUIVALENCE_BASH)
+  if(NOT CONFORMAL_EQUIVALENCE_BASH)
+    message(STATUS "Conformal_equivalence: SKIPPED: program_interface, without bash")
+    return()
+  endif()
+  set(_reports)
+  set(_fixtures)
+  if(nlohmann_json_FOUND AND EXISTS "${CGAL_DATA_DIR}/meshes")
+    foreach(_name lion-head mushroom seamless_bear hexagons_lion-head)
+      list(APPEND _reports "${PROJECT_BINARY_DIR}/run/flatten_mesh_${_name}/${_name}.json")
+      list(APPEND _fixtures flattened_${_name})
+    endforeach()
+  endif()
+  conformal_equivalence_test(program_interface examples "${CONFORMAL_EQUIVALENCE_BASH}"
+    "${PROJECT_SOURCE_DIR}/test/Conformal_equivalence/program_interface/run.sh" $<TARGET_FILE:flatten_mesh> "${PROJECT_SOURCE_DIR}"
+    "${CGAL_DATA_DIR}/meshes" ${_reports})
+  if(TARGET check_flattening)
+    set_tests_properties(program_interface PROPERTIES FIXTURES_REQUIRED "${_fixtures}")
+  endif()
+endfunction()
+
 if(TARGET flatten_mesh)
   foreach(_mesh lion-head three_peaks mushroom nefertiti mesh_with_border cylinder)
     conformal_equivalence_flatten_and_check(${_mesh} ${_mesh})
@@ -162,6 +197,9 @@ if(TARGET flatten_mesh)
   conformal_equivalence_flatten_and_check(seamless_camel camel FLATTEN --cones auto=10 --seamless CHECK --seamless)
   conformal_equivalence_flatten_and_check(hexagons_lion-head lion-head FLATTEN --cones auto=5 --quantize 60 --seamless --lattice-coordinates
                                           CHECK --seamless 6 --free-border)
+  if("test" IN_LIST _folders AND "examples" IN_LIST _folders)
+    conformal_equivalence_test_program_interface()
+  endif()
 endif()
 
 if(NOT EXISTS "${CGAL_DATA_DIR}/meshes")
@@ -192,6 +230,8 @@ if("test" IN_LIST _folders)
     COMMAND ${CMAKE_COMMAND}
       "-DBUILD_DIR=${PROJECT_BINARY_DIR}"
       "-DWITH_LIBRARY=$<TARGET_EXISTS:Conformal_equivalence::compiled>"
+      "-DWITH_PROGRAM=$<TARGET_EXISTS:flatten_mesh>"
+      "-DVERSION=${PROJECT_VERSION}"
       "-DAPPLICATION=${PROJECT_SOURCE_DIR}/test/Conformal_equivalence/installation"
       "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
       "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}"

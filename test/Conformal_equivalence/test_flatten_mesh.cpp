@@ -59,6 +59,11 @@ BOOST_AUTO_TEST_CASE(natural_border_and_all_outputs)
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
   const nlohmann::json report = json(folder / "o.json");
+  BOOST_TEST(report["program"] == "flatten_mesh");
+  BOOST_TEST(report["version"] == CGAL_CONFORMAL_EQUIVALENCE_VERSION);
+  BOOST_TEST(report["input"] == input);
+  BOOST_TEST(report["options"]["output"] == folder / "o.obj");
+  BOOST_TEST(report["options"].size() == 4u);
   BOOST_TEST(report["status"] == "OK");
   BOOST_TEST(report["vertices"] == soup.points.size());
   BOOST_TEST(report["faces"] == soup.triangles.size());
@@ -82,6 +87,40 @@ BOOST_AUTO_TEST_CASE(natural_border_and_all_outputs)
   for(const char* name : {"import", "solve", "cut", "layout", "verify", "write"})
     BOOST_TEST(report["seconds"][name].is_number());
 #endif
+}
+
+// Each by itself, as if it were alone; one that fails keeps none from being flattened.
+BOOST_AUTO_TEST_CASE(several_inputs)
+{
+  const Folder folder;
+  const std::string grid = folder.write("grid.off", as_off(bumpy_grid(5))), bad = folder.write("bad.off", "OFF\n"),
+                    other = folder.write("other.off", as_off(bumpy_grid(4)));
+  BOOST_TEST(run({grid, "-o", folder / "alone.obj"}).status == 0);
+  std::vector<std::string> arguments = {grid, bad, other, "-o", folder / "%_100%%.obj", "--boundary", "natural"};
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  arguments.insert(arguments.end(), {"--report", folder / "all.json"});
+#endif
+  const Run r = run(arguments);
+  BOOST_TEST(r.status == 1);
+  BOOST_TEST(std::count(r.err.begin(), r.err.end(), '\n') == 1);
+  BOOST_TEST(contains(r.err, bad + ": "));
+  BOOST_TEST(contains(r.out, "36 vertices, 50 triangles"));
+  BOOST_TEST(contains(r.out, "25 vertices, 32 triangles"));
+  const std::string among_others = content(folder / "grid_100%.obj"), alone = content(folder / "alone.obj");
+  BOOST_TEST(among_others.substr(among_others.find('\n')) == alone.substr(alone.find('\n'))); // but for the name of the material
+  BOOST_TEST(! fs::exists(folder / "bad_100%.obj"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const nlohmann::json reports = json(folder / "all.json");
+  BOOST_TEST_REQUIRE(reports.size() == 3u);
+  BOOST_TEST(reports[0]["input"] == grid);
+  BOOST_TEST(reports[1]["status"] == "FAILED");
+  BOOST_TEST(contains(r.err, reports[1]["message"].get<std::string>()));
+  BOOST_TEST(reports[2]["vertices"] == 25);
+  BOOST_TEST(reports[2]["options"]["boundary"] == "natural");
+#endif
+  check_refused({grid, grid, "-o", folder / "%.obj"}, 2, "two outputs have the same name");
+  check_refused({grid, other, "--svg", folder / "%.off"}, 2, "would overwrite the input");
+  BOOST_TEST(run({grid, other, "--quiet"}).status == 0);
 }
 
 BOOST_AUTO_TEST_CASE(quiet_help_version)
@@ -451,7 +490,10 @@ BOOST_AUTO_TEST_CASE(mollification)
 BOOST_AUTO_TEST_CASE(wrong_usage)
 {
   check_refused({}, 2, "no INPUT is given");
-  check_refused({"a.off", "b.off"}, 2, "only one INPUT");
+  check_refused({"a.off", "b.off", "-o", "o.obj"}, 2, "-o needs a %");
+  check_refused({"a.off", ""}, 2, "no INPUT is given");
+  check_refused({"--print", "tcsh"}, 2, "unknown value 'tcsh' of --print");
+  check_refused({"a.off", "--format", "step"}, 2, "unknown value 'step' of --format");
   check_refused({"a.off", "--frobnicate"}, 2, "--frobnicate");
   check_refused({"a.off", "--repor", "x"}, 2, "--repor");
   check_refused({"a.off", "-o"}, 2, "--output");

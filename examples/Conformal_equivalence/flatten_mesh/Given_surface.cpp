@@ -207,10 +207,10 @@ Vertex Given_surface::vertex_of_mesh(std::int64_t i, const std::string& where) c
   return Vertex(static_cast<Mesh::size_type>(v));
 }
 
-Given_surface read_surface(const std::string& file, bool repairs, Mesh& mesh)
+Given_surface read_surface(const std::string& file, bool repairs, Mesh& mesh, const std::string& format)
 {
   Given_surface given;
-  given.soup = read_soup(file);
+  given.soup = read_soup(file, format);
   given.number_of_vertices = given.soup.points.size();
   given.number_of_faces = given.soup.faces.size();
   given.attributes = std::move(given.soup.attributes);

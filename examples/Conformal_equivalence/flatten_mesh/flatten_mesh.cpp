@@ -11,8 +11,10 @@
 #include "../include/flatten_mesh/mesh.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/OBJ_attribute_writer.h"
+#include "../include/flatten_mesh/option_table.h"
 #include "../include/flatten_mesh/options.h"
 #include "../include/flatten_mesh/Output_files.h"
+#include "../include/flatten_mesh/several_inputs.h"
 #include "../include/flatten_mesh/side_by_side.h"
 #include "../include/flatten_mesh/solve.h"
 #include "../include/flatten_mesh/Stopwatch.h"
@@ -110,19 +112,18 @@ std::string reason_of_failure(const Options& options, const Given_surface& given
 }
 
 // Reads, solves, judges, writes; throws a `Failure` that says what went wrong.
-void run(const Options& given_options, std::ostream& out, std::ostream& err)
+void run(const Options& given_options, Output_files& files, std::ostream& out, std::ostream& err)
 {
   if(given_options.target == Target::HYPERBOLIC)
-    return run_hyperbolic(given_options, out, err);
+    return run_hyperbolic(given_options, files, out, err);
   Options options = given_options;
   Material_files beside(options.target == Target::SPHERE ? "" : options.obj); // there is no texture on the sphere
-  Output_files files(out);
   announce_outputs(options, beside, files);
 
   const CE::Working_precision precision(options.precision_in_bits);
   const Stopwatch watch;
   Mesh mesh;
-  const Given_surface given = read_surface(options.input, options.repair, mesh);
+  const Given_surface given = read_surface(options.input, options.repair, mesh, options.format);
   options = with_vertices_of_mesh(options, given);
   if(all_faces_have_a_material(given.attributes))
     withdraw_material(beside, files);
@@ -161,6 +162,17 @@ void run(const Options& given_options, std::ostream& out, std::ostream& err)
     err << "flatten_mesh: " << notice << std::endl;
 }
 
+// Returns whether each input was flattened; of one alone, throws what went wrong.
+bool run_all(const Options& all, std::ostream& out, std::ostream& err)
+{
+  check_solver(all.solver);
+  if(all.inputs.size() > 1)
+    return run_each(all, [&](const Options& options, Output_files& files) { run(options, files, out, err); }, out, err);
+  Output_files files(out);
+  run(options_of_input(all, 0), files, out, err);
+  return true;
+}
+
 } // namespace
 
 } // namespace flattening
@@ -175,11 +187,10 @@ int flatten_mesh(int argc, const char* const argv[], std::ostream& out, std::ost
       out << help_text();
     else if(options.is_version)
       out << "flatten_mesh " << CGAL_CONFORMAL_EQUIVALENCE_VERSION << " (CGAL " << CGAL_VERSION_STR << ")\n";
+    else if(! options.printed.empty())
+      out << printed_text(options.printed);
     else
-    {
-      check_solver(options.solver);
-      run(options, out, err);
-    }
+      return run_all(options, out, err) ? 0 : 1;
     return 0;
   }
   catch(const Usage_error& e)

@@ -12,6 +12,7 @@
 #include "../include/flatten_mesh/Output_files.h"
 #include "../include/flatten_mesh/page_text.h"
 #include "../include/flatten_mesh/Progress.h"
+#include "../include/flatten_mesh/report_entries.h"
 #include "../include/flatten_mesh/Solver_traits.h"
 #include "../include/flatten_mesh/Stopwatch.h"
 #include "../include/flatten_mesh/write_outputs.h"
@@ -136,7 +137,8 @@ std::string json_report(const Options& options, const Mesh& mesh, const Uniformi
 {
   const CE::Statistics& s = u.metric.statistics;
   nlohmann::ordered_json report;
-  report["input"] = options.input;
+  begin_report(options, report);
+  report["status"] = "OK";
   report["target"] = "hyperbolic";
   report["vertices"] = mesh.number_of_vertices();
   report["faces"] = mesh.number_of_faces();
@@ -185,14 +187,13 @@ UV_map corner_map(Mesh& mesh, const CE::Imported_mesh<Mesh>& imported, const Uni
 
 } // namespace
 
-void run_hyperbolic(const Options& options, std::ostream& out, std::ostream& err)
+void run_hyperbolic(const Options& options, Output_files& files, std::ostream& out, std::ostream& err)
 {
   const Material_files no_material("");
-  Output_files files(out);
   announce_outputs(options, no_material, files);
   const Stopwatch watch;
   Mesh mesh;
-  const Given_surface given = read_surface(options.input, options.repair, mesh);
+  const Given_surface given = read_surface(options.input, options.repair, mesh, options.format);
   Uniformization u;
   {
     Progress progress(err, ! options.quiet && is_terminal(err));

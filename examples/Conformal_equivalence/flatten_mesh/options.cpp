@@ -3,7 +3,9 @@
 
 #include "../include/flatten_mesh/options.h"
 #include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/option_table.h"
 #include "../include/flatten_mesh/Scanner.h"
+#include "../include/flatten_mesh/several_inputs.h"
 
 #include <boost/program_options.hpp>
 
@@ -27,24 +29,30 @@ namespace {
 
 namespace po = boost::program_options;
 
+// A value that is one word. Alternatives are divided by '|': words in capitals stand for something, others are meant as they are.
+po::typed_value<std::string>* word(const char* name) { return po::value<std::string>()->value_name(name); }
+
+po::typed_value<std::string>* word(const char* name, const char* if_absent) { return word(name)->default_value(if_absent); }
+
 po::options_description visible_options()
 {
-  po::options_description options("Options", 110);
+  po::options_description options("Options", 110, 76); // longer names of values have a line of their own
   options.add_options()
-    ("output,o", po::value<std::string>(), "write the mesh with the layout as texture coordinates to this OBJ file, "
-                                           "and a material (.mtl, .checker.png) beside it")
-    ("svg", po::value<std::string>(), "draw the layout")
-    ("html", po::value<std::string>(), "write a page that shows the textured mesh and the layout")
-    ("report", po::value<std::string>(), "write the figures as JSON")
-    ("boundary", po::value<std::vector<std::string> >()->composing(),
-       "natural: the border keeps its lengths (default)\n"
-       "rectangle[=i,j,k,l]: with corners at these vertices of one border, other borders stay natural; "
+    ("output,o", word("FILE"), "write the mesh with the layout as texture coordinates to this OBJ file, "
+                               "and a material (.mtl, .checker.png) beside it")
+    ("svg", word("FILE"), "draw the layout")
+    ("html", word("FILE"), "write a page that shows the textured mesh and the layout")
+    ("report", word("FILE"), "write the figures as JSON; of several inputs, those of all as one array, unless the name has a %")
+    ("boundary", po::value<std::vector<std::string> >()->composing()->value_name("natural|rectangle[=I,J,K,L]|angles=FILE|scale=FILE|disk"),
+       "conditions at the border\n"
+       "natural: it keeps its lengths (default)\n"
+       "rectangle[=I,J,K,L]: with corners at these vertices of one border, other borders stay natural; "
        "or, on topological disks, each with chosen corners\n"
        "angles=FILE: angle sums in degrees, lines 'vertex-index angle'\n"
        "scale=FILE: u, lines 'vertex-index u'\n"
        "angles and scale may both be given; border vertices not named have u = 0\n"
        "disk: the same as --target disk")
-    ("target", po::value<std::string>()->default_value("plane"), "plane\n"
+    ("target", word("plane|sphere|disk|hyperbolic", "plane"), "where the surface is mapped to\n"
        "sphere: the unit sphere, for closed surfaces without handles; the vertices of the OBJ file are points of the sphere\n"
        "disk: the unit disk, for topological disks; all border vertices are on the circle\n"
        "hyperbolic: the hyperbolic surface, in Poincare's disk, for one connected surface of negative Euler characteristic; borders become "
@@ -52,38 +60,39 @@ po::options_description visible_options()
        "rounded and in exact numbers (--report)\n"
        "Several components: each has a sphere or disk of its own, the i-th (from 0) of n with its centre in (2.25 (i mod c), 2.25 floor(i / c), 0), "
        "where c is the root of n, rounded up; spheres are objects component_i of the OBJ file, unless INPUT has objects")
-    ("moebius-weights", po::value<std::string>()->default_value("vertices"), "vertices | areas: what has its barycentre in the centre "
+    ("moebius-weights", word("vertices|areas", "vertices"), "what has its barycentre in the centre "
        "of the sphere, or of the sphere of which the disk is one half")
-    ("disk-centre", po::value<std::string>(), "I: this vertex, inside the surface, becomes the centre of the disk instead")
-    ("disk-points", po::value<std::string>(), "I,J,K: instead, these border vertices, counterclockwise, become 1, e^(2 pi i / 3) and e^(4 pi i / 3)")
-    ("vertex-at-infinity", po::value<std::string>(), "I: on the way to the sphere this vertex, to the disk this border vertex, is sent to "
+    ("disk-centre", word("I"), "this vertex, inside the surface, becomes the centre of the disk instead")
+    ("disk-points", word("I,J,K"), "instead, these border vertices, counterclockwise, become 1, e^(2 pi i / 3) and e^(4 pi i / 3)")
+    ("vertex-at-infinity", word("I"), "on the way to the sphere this vertex, to the disk this border vertex, is sent to "
        "infinity; chosen by default")
-    ("frame", po::value<std::string>()->default_value("canonical"), "canonical | unit-square")
-    ("cones", po::value<std::string>(),
-       "FILE: cones inside the surface, lines 'vertex-index [angle in degrees | free]'; at a free cone, or where nothing "
+    ("frame", word("canonical|unit-square", "canonical"), "where the layout is: centred and not scaled, or within the unit square")
+    ("cones", word("FILE|auto[=N]"),
+       "cones inside the surface, lines 'vertex-index [angle in degrees | free]'; at a free cone, or where nothing "
        "follows the vertex, u = 0 and the angle is found. Closed surfaces need cones, except for tori\n"
        "auto[=N]: N cones place themselves, or as many as it takes for --max-scale, --max-area or --max-rms (a file of such a name is given as "
        "./auto); their angles are chosen with their places. On each component, and on one with fewer than N vertices inside as many as it has, "
        "unless all are such")
-    ("max-scale", po::value<std::string>(), "U: with --cones auto, cones are placed until |u| is at most U everywhere")
-    ("max-area", po::value<std::string>(), "A: with --cones auto, cones are placed until no triangle is scaled by more than the factor A, "
+    ("max-scale", word("U"), "with --cones auto, cones are placed until |u| is at most U everywhere")
+    ("max-area", word("A"), "with --cones auto, cones are placed until no triangle is scaled by more than the factor A, "
        "relative to the mean of the areas")
-    ("max-rms", po::value<std::string>(), "E: with --cones auto, cones are placed until the area-weighted root mean square of u, less its mean, "
+    ("max-rms", word("E"), "with --cones auto, cones are placed until the area-weighted root mean square of u, less its mean, "
        "is at most E")
-    ("cone-measure", po::value<std::string>(), "max | rms | area: what --cones auto makes small: the largest |u|, the root mean square of u, or the "
+    ("cone-measure", word("max|rms|area"), "what --cones auto makes small: the largest |u|, the root mean square of u, or the "
        "largest factor between areas; by default what is bounded, or max")
-    ("quantize", po::value<std::string>(), "[DEGREES]: the angles of cones are multiples of this one, 360 / n (90 if none "
+    ("quantize", word("[DEGREES]"), "the angles of cones are multiples of this one, 360 / n (90 if none "
        "is given): those of --cones auto are rounded, those of a file have to be")
     ("seamless", po::bool_switch(), "the layout is scaled, turned and deformed as little as it takes, so that a texture of tiles fits across the "
        "seams; the tiles are squares with --quantize 90 (default) or 180, hexagons with 60 or 120. Each component by itself; all fit the same tiles")
-    ("holonomy", po::value<std::string>(), "FILE: with --seamless, how loops around handles turn, lines 'k vertex-index vertex-index ...': the "
+    ("holonomy", word("FILE"), "with --seamless, how loops around handles turn, lines 'k vertex-index vertex-index ...': the "
        "closed curve along these edges, on their left, turns by k times the angle of --quantize, modulo a full turn; by default all are chosen, "
        "as near as can be to what is conformal")
-    ("tiles", po::value<std::string>(), "T: with --seamless, about so many tiles on each component; by default as few as --distortion allows")
-    ("distortion", po::value<std::string>()->default_value("1.02"), "D: with --seamless, bound on the mean quasi-conformal factor of the deformation")
+    ("tiles", word("T"), "with --seamless, about so many tiles on each component; by default as few as --distortion allows")
+    ("distortion", word("D", "1.02"), "with --seamless, bound on the mean quasi-conformal factor of the deformation")
     ("lattice-coordinates", po::bool_switch(), "with --seamless, the texture coordinates are (a, b) for the point "
        "a + b e^(2 pi i / m), where m is 4 for squares and 6 for hexagons: then the motions across the seams are exact for hexagons, too")
-    ("retriangulate", po::value<std::string>()->default_value("when-needed"), "never: edges are kept\n"
+    ("retriangulate", word("never|when-needed|always", "when-needed"), "whether edges are flipped\n"
+       "never: edges are kept\n"
        "when-needed: edges are flipped where there is no solution otherwise (default)\n"
        "always: the result depends on the surface alone, not on its triangulation")
     ("keep-border", po::bool_switch(), "no border edge is flipped, so that all are as long as u at their ends makes them; fails where that cannot be")
@@ -93,21 +102,23 @@ po::options_description visible_options()
        "dropped, faces turned, and the surface is taken apart where it is no manifold. No vertex is moved, and all faces of INPUT are written")
     ("local-repair", po::bool_switch(), "no flips on the way; instead, where triangles break, edges of a copy of the mesh are flipped or split, "
        "and the copy is written")
-    ("mollify", po::value<std::string>()->default_value("0"), "add the least constant to all lengths with which every triangle inequality "
+    ("mollify", word("SLACK", "0"), "add the least constant to all lengths with which every triangle inequality "
        "holds with this slack, relative to the mean length; 0: none")
     ("projective", po::bool_switch(), "write homogeneous texture coordinates u*w, v*w, w")
     ("require-injective", po::bool_switch(), "fail if the layout overlaps itself, or if rounding has cost triangles of the sphere or the disk")
-    ("color-by", po::value<std::string>()->default_value("u"), "u | qc: colours of the drawing")
-    ("tolerance", po::value<std::string>()->default_value("1e-12"), "largest error of an angle sum, in radians")
-    ("max-iterations", po::value<long long>()->default_value(100), "bound on the number of Newton steps")
-    ("precision", po::value<std::string>()->default_value("double"), "double | BITS: computes with numbers of so many bits (up to 16384), "
+    ("color-by", word("u|qc", "u"), "colours of the drawing: u, or the quasi-conformal factor")
+    ("tolerance", word("X", "1e-12"), "largest error of an angle sum, in radians")
+    ("max-iterations", po::value<long long>()->default_value(100)->value_name("N"), "bound on the number of Newton steps")
+    ("precision", word("double|BITS", "double"), "double, or numbers of so many bits to compute with (up to 16384), "
        "as exactly as they allow, and writes all of their digits")
-    ("solver", po::value<std::string>(), "the linear solver: multifrontal, simplicial (Eigen) or cholmod (if compiled in)")
-    ("threads", po::value<long long>()->default_value(1), "how many threads the solver may use, if TBB is compiled in; "
+    ("solver", word("multifrontal|simplicial|cholmod"), "the linear solver: of this package, of Eigen, or CHOLMOD if it is compiled in")
+    ("threads", po::value<long long>()->default_value(1)->value_name("N"), "how many threads the solver may use, if TBB is compiled in; "
        "the result is the same for any number")
-    ("default-input", po::value<std::string>(), "FILE: the INPUT if none is given; for scripts")
-    ("default-output", po::value<std::string>(), "FOLDER: where NAME.obj, NAME.svg and NAME.json are written, NAME being that of INPUT without its "
+    ("default-input", word("FILE"), "the INPUT if none is given; for scripts")
+    ("default-output", word("FOLDER"), "where NAME.obj, NAME.svg and NAME.json are written, NAME being that of INPUT without its "
        "extension, if none of -o, --svg, --html and --report is given; for scripts")
+    ("format", word("off|obj|ply|stl"), "what INPUT is; by default its extension tells, and of the standard input its beginning")
+    ("print", word("man|bash|zsh|fish"), "print the manual page, or what a shell needs to complete these options")
     ("quiet", po::bool_switch(), "no summary and no progress")
     ("help,h", po::bool_switch(), "show this text")
     ("version", po::bool_switch(), "show the version");
@@ -127,6 +138,8 @@ void refuse_unknown_values(const po::variables_map& values)
   check("frame", {"canonical", "unit-square"});
   check("retriangulate", {"never", "when-needed", "always"});
   check("color-by", {"u", "qc"});
+  if(values.count("format"))
+    check("format", {"off", "obj", "ply", "stl"});
 }
 
 // Whether an option is on the command line, with a value or as a switch.
@@ -408,23 +421,31 @@ std::vector<std::string> words_of_command_line(int argc, const char* const argv[
   return words;
 }
 
-po::variables_map parse_command_line(int argc, const char* const argv[])
+// What was given, beside the inputs, in its order.
+std::vector<Given_option> given_options(const po::parsed_options& parsed)
+{
+  std::vector<Given_option> given;
+  for(const po::option& option : parsed.options)
+    if(option.string_key != "input")
+      given.push_back({option.string_key, option.value.empty() ? std::nullopt : std::optional<std::string>(option.value[0])});
+  return given;
+}
+
+po::variables_map parse_command_line(int argc, const char* const argv[], std::vector<Given_option>& given)
 {
   po::options_description all;
-  all.add(visible_options()).add_options()("input", po::value<std::string>());
+  all.add(visible_options()).add_options()("input", po::value<std::vector<std::string> >());
   po::positional_options_description positions;
-  positions.add("input", 1);
+  positions.add("input", -1);
   po::variables_map values;
   try
   {
     namespace style = po::command_line_style;
-    po::store(po::command_line_parser(words_of_command_line(argc, argv)).options(all).positional(positions)
-                .style(style::default_style & ~style::allow_guessing).run(), values);
+    const po::parsed_options parsed = po::command_line_parser(words_of_command_line(argc, argv)).options(all).positional(positions)
+                                        .style(style::default_style & ~style::allow_guessing).run();
+    given = given_options(parsed);
+    po::store(parsed, values);
     po::notify(values);
-  }
-  catch(const po::too_many_positional_options_error&)
-  {
-    throw Usage_error("only one INPUT can be given");
   }
   catch(const po::error& e)
   {
@@ -462,8 +483,7 @@ bool is_special_file(const std::string& file)
 // What is written where nothing else was asked for.
 void set_default_outputs(const std::string& folder, Options& options)
 {
-  const std::string name = options.input == "-" ? "layout" : std::filesystem::path(options.input).stem().string();
-  const auto output = [&](const char* extension) { return (std::filesystem::path(folder) / (name + extension)).string(); };
+  const auto output = [&](const char* extension) { return (std::filesystem::path(literal_name(folder)) / (std::string("%") + extension)).string(); };
   std::error_code ignored; // what cannot be written is told later
   std::filesystem::create_directories(folder, ignored);
   options.obj = output(".obj");
@@ -487,17 +507,35 @@ void parse_files(const po::variables_map& values, Options& options)
   if(! options.obj.empty() && options.obj != "-" && ! std::filesystem::path(options.obj).extension().empty()
      && ! has_extension(options.obj, ".obj") && ! is_special_file(options.obj))
     throw Usage_error(text("-o writes OBJ files, named *.obj, not '", options.obj, "'"));
-  if(values.count("input") || values.count("default-input"))
-    options.input = values[values.count("input") ? "input" : "default-input"].as<std::string>();
+  if(values.count("input"))
+    options.inputs = values["input"].as<std::vector<std::string> >();
+  else if(values.count("default-input"))
+    options.inputs = { values["default-input"].as<std::string>() };
+  if(values.count("format"))
+    options.format = values["format"].as<std::string>();
   if(options.obj.empty() && options.svg.empty() && options.html.empty() && options.report.empty() && values.count("default-output"))
     set_default_outputs(values["default-output"].as<std::string>(), options);
+}
+
+// Of several inputs, each has files of its own.
+void check_names_of_outputs(const Options& options)
+{
+  const auto check = [&](const char* option, const std::string& file)
+  {
+    if(options.inputs.size() > 1 && ! file.empty() && ! names_input(file))
+      throw Usage_error(text(option, " needs a % in the name of its file, which stands for the name of each of the several inputs"));
+  };
+  check("-o", options.obj);
+  check("--svg", options.svg);
+  check("--html", options.html);
 }
 
 // The standard input and output can be used once each.
 void check_standard_streams(const Options& options)
 {
   const auto number = [](const std::vector<std::string>& files) { return std::count(files.begin(), files.end(), "-"); };
-  if(number({options.input, options.cone_file, options.holonomy_file, options.angle_file, options.scale_file}) > 1)
+  const auto inputs = number(options.inputs), conditions = number({options.cone_file, options.holonomy_file, options.angle_file, options.scale_file});
+  if(inputs + conditions > 1 || (conditions != 0 && options.inputs.size() > 1))
     throw Usage_error("the standard input, '-', can be read only once");
   if(number({options.obj, options.svg, options.html, options.report}) > 1)
     throw Usage_error("only one output can be written to the standard output, '-'");
@@ -518,30 +556,48 @@ std::vector<std::string> solver_names()
 std::string help_text()
 {
   std::ostringstream out;
-  out << "Usage: flatten_mesh INPUT [-o OUT.obj] [--svg OUT.svg] [--html OUT.html] [--report OUT.json] [options]\n"
-         "Flattens a triangle mesh (OFF, OBJ, PLY or STL) of any topology by an exact discrete conformal map:\n"
-         "the layout has the length cross ratios of the mesh. What is no topological disk, or has cones, is\n"
-         "cut open. Closed surfaces without handles are also mapped to the sphere, disks to the unit disk.\n"
-         "Faces with more than three sides are divided into triangles to compute, and written as they were.\n"
-         "Vertices and faces are counted from 0. The file '-' is the standard input or output.\n"
-         "Exit status: 0 done, no triangle flipped (on sphere and disk: but for those that rounding has cost,\n"
-         "which are counted); 1 failed, nothing is written; 2 wrong usage.\n\n"
-      << visible_options();
+  out << "Usage: " << synopsis << "\n" << introduction << exit_status << "\n" << visible_options();
   return out.str();
+}
+
+std::vector<Option_entry> option_table()
+{
+  const po::options_description options = visible_options(); // what it holds lives as long as it does
+  std::vector<Option_entry> table;
+  for(const auto& option : options.options())
+  {
+    Option_entry entry;
+    entry.name = option->long_name();
+    const std::string letter = option->canonical_display_name(po::command_line_style::allow_dash_for_short); // "-o", or the name if there is none
+    entry.letter = letter.size() == 2 && letter[0] == '-' ? letter.substr(1) : "";
+    entry.value = option->semantic()->max_tokens() == 0 ? "" : option->format_parameter();
+    const std::size_t preset = entry.value.find(" (="); // Boost.Program_options appends what is meant if the option is absent
+    if(preset != std::string::npos)
+    {
+      entry.if_absent = entry.value.substr(preset + 3, entry.value.size() - preset - 4);
+      entry.value.erase(preset);
+    }
+    entry.description = option->description();
+    table.push_back(entry);
+  }
+  return table;
 }
 
 Options parse_options(int argc, const char* const argv[])
 {
   Options options;
-  const po::variables_map values = parse_command_line(argc, argv);
+  const po::variables_map values = parse_command_line(argc, argv, options.given);
   options.is_help = values["help"].as<bool>();
   options.is_version = values["version"].as<bool>();
-  if(options.is_help || options.is_version)
+  if(values.count("print"))
+    options.printed = values["print"].as<std::string>();
+  if(options.is_help || options.is_version || ! options.printed.empty())
     return options;
   refuse_unknown_values(values);
   parse_files(values, options);
-  if(options.input.empty())
+  if(options.inputs.empty() || std::count(options.inputs.begin(), options.inputs.end(), "") != 0)
     throw Usage_error("no INPUT is given");
+  check_names_of_outputs(options);
   if(values.count("boundary"))
     parse_boundary(values["boundary"].as<std::vector<std::string> >(), options);
   parse_target(values, options);

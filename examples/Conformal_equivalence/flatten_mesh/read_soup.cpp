@@ -80,16 +80,17 @@ std::string extension_of_content(const std::string& content)
 
 } // namespace
 
-Polygon_soup read_soup(const std::string& file)
+Polygon_soup read_soup(const std::string& file, const std::string& format)
 {
-  std::string extension = lower_case_extension(file), content;
+  std::string extension = format.empty() ? lower_case_extension(file) : "." + format, content;
   if(file == "-")
   {
     content = read_file(file);
-    extension = extension_of_content(content);
+    if(format.empty())
+      extension = extension_of_content(content);
   }
   if(extension != ".off" && extension != ".obj" && extension != ".stl" && extension != ".ply")
-    fail(file, ": unknown extension '", extension, "'; known are .off, .obj, .ply and .stl");
+    fail(file, ": unknown extension '", extension, "'; known are .off, .obj, .ply and .stl (for others: --format)");
   if(file != "-")
     content = read_file(file);
   if(content.empty())

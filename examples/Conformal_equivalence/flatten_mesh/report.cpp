@@ -5,6 +5,7 @@
 
 #include "../include/flatten_mesh/figures.h"
 #include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/report_entries.h"
 
 #include <CGAL/number_utils.h>
 
@@ -208,7 +209,7 @@ void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, 
   out << options.input << '\n';
   for(const auto& line : summary(options, mesh, figures))
     out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
-  for(const std::string& file : {options.obj, options.svg, options.html, options.report})
+  for(const std::string& file : {options.obj, options.svg, options.html, options.is_report_joint ? std::string() : options.report})
     if(! file.empty() && file != "-")
       out << "  wrote " << file << '\n';
 }
@@ -379,6 +380,7 @@ std::string json_report(const Options& options, const Mesh& mesh, const Figures&
   const CE::Statistics& s = figures.report.statistics;
   const CE::Surface_topology& t = figures.report.topology;
   nlohmann::ordered_json json;
+  begin_report(options, json);
   json["status"] = status_text(figures);
   json["target"] = target_text(options.target);
   json["vertices"] = figures.given->number_of_vertices;

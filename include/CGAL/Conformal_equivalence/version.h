@@ -12,10 +12,10 @@
 
 /// \ingroup PkgConformalEquivalenceRef
 /// the version as text, `"major.minor.patch"`
-#define CGAL_CONFORMAL_EQUIVALENCE_VERSION "0.1.0"
+#define CGAL_CONFORMAL_EQUIVALENCE_VERSION "0.2.0"
 
 /// \ingroup PkgConformalEquivalenceRef
 /// the version as a number that can be compared: `10000 * major + 100 * minor + patch`
-#define CGAL_CONFORMAL_EQUIVALENCE_VERSION_NR 100
+#define CGAL_CONFORMAL_EQUIVALENCE_VERSION_NR 200
 
 #endif // CGAL_CONFORMAL_EQUIVALENCE_VERSION_H

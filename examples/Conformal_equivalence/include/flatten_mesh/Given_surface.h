@@ -46,8 +46,9 @@ struct Given_surface
   Vertex vertex_of_mesh(std::int64_t i, const std::string& where) const;
 };
 
-// Reads the file, repairs what it holds if that is asked for, and makes it a mesh of triangles. Throws a `Failure` if it is no manifold.
-Given_surface read_surface(const std::string& file, bool repairs, Mesh& mesh);
+// Reads the file, repairs what it holds if that is asked for, and makes it a mesh of triangles. Throws a `Failure` if it is no manifold. `format` is
+// as for `read_soup()`.
+Given_surface read_surface(const std::string& file, bool repairs, Mesh& mesh, const std::string& format = "");
 
 // The options, with vertices of the mesh for those of the file that they name.
 Options with_vertices_of_mesh(Options options, const Given_surface& given);

@@ -41,9 +41,24 @@ public:
       remove_temporary(e);
   }
 
+  // What is written to this file is kept in `content` instead. To be said before it is announced.
+  void keep(const std::string& path, std::string& content)
+  {
+    kept_path_ = path;
+    kept_content_ = &content;
+  }
+
+  // Whether this is a file that was announced, under any name.
+  bool is_announced(const std::string& path) const
+  {
+    return std::any_of(entries_.begin(), entries_.end(), [file = target(path)](const Entry& e) { return e.target == file; });
+  }
+
   // Announces a file, and makes sure that it can be written. Nothing is left of the trial.
   void announce(const std::string& path)
   {
+    if(is_kept(path))
+      return;
     Entry entry{path, is_standard_stream(path) ? path : target(path), "", ""};
     for(const Entry& e : entries_)
       if(e.target == entry.target)
@@ -63,6 +78,8 @@ public:
   template <typename Write>
   void write(const std::string& path, Write write)
   {
+    if(is_kept(path))
+      return keep(write);
     Entry& entry = *find(path);
     errno = 0;
     if(is_standard_stream(path))
@@ -126,6 +143,17 @@ private:
       return;
     remove(entry.temporary);
     forget_temporary_file(entry.temporary);
+  }
+
+  bool is_kept(const std::string& path) const { return kept_content_ != nullptr && path == kept_path_; }
+
+  template <typename Write>
+  void keep(Write write)
+  {
+    std::ostringstream out;
+    if(! write(out))
+      fail("cannot write ", kept_path_);
+    *kept_content_ = out.str();
   }
 
   static std::string reason() { return errno ? text(": ", std::strerror(errno)) : std::string(); }
@@ -193,6 +221,8 @@ private:
 
   std::ostream& standard_output_;
   std::vector<Entry> entries_;
+  std::string kept_path_;
+  std::string* kept_content_ = nullptr;
 };
 
 } // namespace flattening

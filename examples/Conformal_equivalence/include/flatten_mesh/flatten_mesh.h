@@ -8,7 +8,7 @@
 
 #include <iosfwd>
 
-// The whole program: returns its exit status, 0 (done), 1 (failed, nothing is written) or 2 (wrong usage).
+// The whole program: returns its exit status, 0 (done), 1 (an input failed, and nothing is written of it) or 2 (wrong usage).
 int flatten_mesh(int argc, const char* const argv[], std::ostream& out, std::ostream& err);
 
 #endif // FLATTEN_MESH_FLATTEN_MESH_H

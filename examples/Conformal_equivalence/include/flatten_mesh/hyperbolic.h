@@ -5,13 +5,14 @@
 #define FLATTEN_MESH_HYPERBOLIC_H
 
 #include "options.h"
+#include "Output_files.h"
 
 #include <ostream>
 
 namespace flattening {
 
 // With --target hyperbolic: reads the surface, finds its hyperbolic metric and group, writes. Throws a `Failure` that says what went wrong.
-void run_hyperbolic(const Options& options, std::ostream& out, std::ostream& err);
+void run_hyperbolic(const Options& options, Output_files& files, std::ostream& out, std::ostream& err);
 
 } // namespace flattening
 

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace flattening {
 
@@ -17,10 +18,17 @@ const unsigned int most_bits = 16384; // that --precision takes
 
 enum class Target { PLANE, SPHERE, DISK, HYPERBOLIC };
 
+// As it was given: its long name, and its value if it takes one.
+struct Given_option
+{
+  std::string name;
+  std::optional<std::string> value;
+};
+
 // The command line, as values.
 struct Options
 {
-  std::string input, obj, svg, html, report;
+  std::string input, obj, svg, html, report;          // of one input (several_inputs.h); before, names of outputs may have a % for it
   Target target = Target::PLANE;
   std::optional<std::size_t> vertex_at_infinity, disk_centre;
   std::optional<std::array<std::size_t, 3> > disk_points;
@@ -50,6 +58,11 @@ struct Options
   unsigned int number_of_threads = 1;
   std::string solver;
   bool is_help = false, is_version = false;
+  std::string printed;                                // what --print is asked for
+  std::vector<std::string> inputs;                    // all of them
+  std::string format;                                 // of the inputs; empty: as they tell themselves
+  bool is_report_joint = false;                       // all inputs have one report
+  std::vector<Given_option> given;
 };
 
 std::string help_text();

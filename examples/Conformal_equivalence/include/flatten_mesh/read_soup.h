@@ -18,8 +18,9 @@ namespace flattening {
 // Whether the machine's numbers begin with their most significant byte.
 bool is_big_endian();
 
-// Reads the file in the format that its extension names; the standard input, "-", in that of its content. Throws a `Failure` that says what is wrong.
-Polygon_soup read_soup(const std::string& file);
+// Reads the file in the format `off`, `obj`, `ply` or `stl`, or, if that is empty, in the one that its extension names; the standard input, "-",
+// in that of its content. Throws a `Failure` that says what is wrong.
+Polygon_soup read_soup(const std::string& file, const std::string& format = "");
 
 } // namespace flattening
 
