@@ -31,9 +31,16 @@ po::options_description visible_options()
 {
   po::options_description options("Options", 110);
   options.add_options()
-    ("output,o", po::value<std::string>(), "write the mesh with the layout as texture coordinates to this OBJ file, "
-                                           "and a material (.mtl, .checker.png) beside it")
+    ("output,o", po::value<std::vector<std::string> >()->composing(),
+       "write the mesh with the layout as texture coordinates to this file; once for each format:\n"
+       ".obj (also other names without an extension, and '-'): all digits, with a material (.mtl, .checker.png) beside it\n"
+       ".glb: glTF 2.0, in single precision, with a texture that fits the layout\n"
+       ".ply: double precision, with u, the weights of --projective, and the charts; vertices are split at seams")
+    ("flat", po::value<std::string>(), "write the layout as a surface in the plane z = 0 to this OBJ file")
+    ("dxf", po::value<std::string>(), "write borders (layer OUTLINE) and seams (layer CUTS) of the layout as DXF, for cutters")
     ("svg", po::value<std::string>(), "draw the layout")
+    ("true-scale", po::value<std::string>(), "MM: with --svg or --dxf, a unit of the layout is so many millimetres long: the drawing has its true "
+       "width and height, the numbers of the DXF file are millimetres")
     ("html", po::value<std::string>(), "write a page that shows the textured mesh and the layout")
     ("report", po::value<std::string>(), "write the figures as JSON")
     ("boundary", po::value<std::vector<std::string> >()->composing(),
@@ -107,7 +114,7 @@ po::options_description visible_options()
        "the result is the same for any number")
     ("default-input", po::value<std::string>(), "FILE: the INPUT if none is given; for scripts")
     ("default-output", po::value<std::string>(), "FOLDER: where NAME.obj, NAME.svg and NAME.json are written, NAME being that of INPUT without its "
-       "extension, if none of -o, --svg, --html and --report is given; for scripts")
+       "extension, if no output is asked for; for scripts")
     ("quiet", po::bool_switch(), "no summary and no progress")
     ("help,h", po::bool_switch(), "show this text")
     ("version", po::bool_switch(), "show the version");
@@ -231,11 +238,14 @@ void parse_options_of_target(const po::variables_map& values, const std::string&
   require(options.target == Target::DISK, values, "--target disk", {"disk-centre", "disk-points"});
   if(options.target == Target::PLANE)
     return;
+  if(options.target == Target::HYPERBOLIC && (! options.glb.empty() || ! options.ply.empty()))
+    throw Usage_error(target + " has no output in the formats GLB and PLY; -o *.obj has the disk coordinates");
   if(options.target == Target::HYPERBOLIC)
-    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by", "precision"});
+    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by", "precision", "flat", "dxf",
+                             "true-scale"});
   exclude(values, target, {"cones", "seamless", "frame", "keep-border", "local-repair"});
   if(options.target == Target::SPHERE)
-    exclude(values, target, {"projective", "html"});
+    exclude(values, target, {"projective", "html", "flat", "dxf", "true-scale"});
   if(is_given(values, "disk-centre"))
     exclude(values, "--disk-centre", {"disk-points", "moebius-weights"});
   if(is_given(values, "disk-points"))
@@ -473,23 +483,42 @@ void set_default_outputs(const std::string& folder, Options& options)
 #endif
 }
 
+// One file of -o, whose extension says its format.
+void parse_output(const std::string& file, Options& options)
+{
+  if(file.empty())
+    throw Usage_error("--output needs the name of a file");
+  const bool is_obj = file == "-" || std::filesystem::path(file).extension().empty() || has_extension(file, ".obj") || is_special_file(file);
+  if(! is_obj && ! has_extension(file, ".glb") && ! has_extension(file, ".ply"))
+    throw Usage_error(text("-o writes OBJ files, named *.obj, GLB files, named *.glb, and PLY files, named *.ply, not '", file, "'"));
+  std::string& place = is_obj ? options.obj : has_extension(file, ".glb") ? options.glb : options.ply;
+  if(! place.empty())
+    throw Usage_error(text("-o is given once for each format, not for both '", place, "' and '", file, "'"));
+  place = file;
+}
+
 // The files to be read and written.
 void parse_files(const po::variables_map& values, Options& options)
 {
-  options.obj = output_file(values, "output");
+  if(values.count("output"))
+    for(const std::string& file : values["output"].as<std::vector<std::string> >())
+      parse_output(file, options);
   options.svg = output_file(values, "svg");
   options.html = output_file(values, "html");
   options.report = output_file(values, "report");
+  options.flat = output_file(values, "flat");
+  options.dxf = output_file(values, "dxf");
+  require(! options.svg.empty() || ! options.dxf.empty(), values, "--svg or --dxf", {"true-scale"});
+  if(is_given(values, "true-scale"))
+    options.true_scale = parse_number_above(0, values, "true-scale");
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
   if(! options.report.empty())
     throw Usage_error("--report is not available: the program was built without nlohmann-json");
 #endif
-  if(! options.obj.empty() && options.obj != "-" && ! std::filesystem::path(options.obj).extension().empty()
-     && ! has_extension(options.obj, ".obj") && ! is_special_file(options.obj))
-    throw Usage_error(text("-o writes OBJ files, named *.obj, not '", options.obj, "'"));
   if(values.count("input") || values.count("default-input"))
     options.input = values[values.count("input") ? "input" : "default-input"].as<std::string>();
-  if(options.obj.empty() && options.svg.empty() && options.html.empty() && options.report.empty() && values.count("default-output"))
+  const std::vector<std::string> files = outputs(options);
+  if(values.count("default-output") && std::all_of(files.begin(), files.end(), [](const std::string& file) { return file.empty(); }))
     set_default_outputs(values["default-output"].as<std::string>(), options);
 }
 
@@ -499,7 +528,7 @@ void check_standard_streams(const Options& options)
   const auto number = [](const std::vector<std::string>& files) { return std::count(files.begin(), files.end(), "-"); };
   if(number({options.input, options.cone_file, options.holonomy_file, options.angle_file, options.scale_file}) > 1)
     throw Usage_error("the standard input, '-', can be read only once");
-  if(number({options.obj, options.svg, options.html, options.report}) > 1)
+  if(number(outputs(options)) > 1)
     throw Usage_error("only one output can be written to the standard output, '-'");
 }
 
@@ -515,10 +544,15 @@ std::vector<std::string> solver_names()
 
 } // namespace
 
+std::vector<std::string> outputs(const Options& options)
+{
+  return { options.obj, options.glb, options.ply, options.flat, options.dxf, options.svg, options.html, options.report };
+}
+
 std::string help_text()
 {
   std::ostringstream out;
-  out << "Usage: flatten_mesh INPUT [-o OUT.obj] [--svg OUT.svg] [--html OUT.html] [--report OUT.json] [options]\n"
+  out << "Usage: flatten_mesh INPUT [-o OUT.obj|OUT.glb|OUT.ply] [--svg OUT.svg] [--html OUT.html] [--report OUT.json] [options]\n"
          "Flattens a triangle mesh (OFF, OBJ, PLY or STL) of any topology by an exact discrete conformal map:\n"
          "the layout has the length cross ratios of the mesh. What is no topological disk, or has cones, is\n"
          "cut open. Closed surfaces without handles are also mapped to the sphere, disks to the unit disk.\n"

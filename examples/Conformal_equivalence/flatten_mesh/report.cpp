@@ -208,7 +208,7 @@ void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, 
   out << options.input << '\n';
   for(const auto& line : summary(options, mesh, figures))
     out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
-  for(const std::string& file : {options.obj, options.svg, options.html, options.report})
+  for(const std::string& file : outputs(options))
     if(! file.empty() && file != "-")
       out << "  wrote " << file << '\n';
 }

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace flattening {
 
@@ -20,7 +21,7 @@ enum class Target { PLANE, SPHERE, DISK, HYPERBOLIC };
 // The command line, as values.
 struct Options
 {
-  std::string input, obj, svg, html, report;
+  std::string input, obj, svg, html, report; // more outputs are at the end
   Target target = Target::PLANE;
   std::optional<std::size_t> vertex_at_infinity, disk_centre;
   std::optional<std::array<std::size_t, 3> > disk_points;
@@ -50,7 +51,12 @@ struct Options
   unsigned int number_of_threads = 1;
   std::string solver;
   bool is_help = false, is_version = false;
+  std::string glb, ply, flat, dxf;
+  double true_scale = 0;               // millimetres in a unit of the layout; 0: pictures have no size
 };
+
+// The names of the files that will be written, some of them empty.
+std::vector<std::string> outputs(const Options& options);
 
 std::string help_text();
 
