@@ -327,8 +327,10 @@ void write_outputs(const Options& options, const Mesh& mesh, Result& result, con
       for(Mesh::Edge_index e : mesh.edges())
         drawing.svg.hidden_edges.push_back(is_diagonal(*figures.given, mesh, e));
     const UV_map layout = options.target == Target::SPHERE ? hemispheres(result) : result.uv;
+    SVG_options picture = drawing.svg;
+    picture.millimetres = options.true_scale;
     if(! options.svg.empty())
-      files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, drawing.svg); });
+      files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, picture); });
     if(! options.html.empty())
       files.write(options.html, [&](std::ostream& out)
       {

@@ -62,6 +62,8 @@ struct SVG_options
   // up to 2 pi within 1e-6 and the rounding of the coordinates. Switch it off for a layout in charts: at their common
   // borders angles sum up to anything.
   bool cones = true;
+  // The length of a unit of the layout in millimetres, which gives the drawing its size; 0: it has none.
+  double millimetres = 0;
   // Circles that are drawn, too, each by its centre and its radius in the layout.
   std::vector<std::array<double, 3> > circles;
 };
@@ -155,10 +157,12 @@ public:
   void write(Text_buffer& out) const
   {
     const double margin = 20, legend_width = 200;
+    const double width = frame_.width + 2 * margin + legend_width, height = (std::max)(frame_.height, 360.) + 2 * margin;
     out << "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\""
-        << -margin << ' ' << -margin << ' ' << frame_.width + 2 * margin + legend_width << ' '
-        << (std::max)(frame_.height, 360.) + 2 * margin
-        << "\" font-family=\"sans-serif\" font-size=\"16\">\n";
+        << -margin << ' ' << -margin << ' ' << width << ' ' << height;
+    if(options_.millimetres > 0)
+      out << "\" width=\"" << width / frame_.scale * options_.millimetres << "mm\" height=\"" << height / frame_.scale * options_.millimetres << "mm";
+    out << "\" font-family=\"sans-serif\" font-size=\"16\">\n";
     if(number_of_faces() > options_.maximum_number_of_drawn_faces)
       write_image(out);
     else
