@@ -137,15 +137,17 @@ SVG_options hemisphere_options(SVG_options options, const Figures& figures)
 {
   options.checkerboard = options.seams = options.cones = false;
   for(const std::array<double, 2>& c : centres(figures))
-  {
-    options.circles.push_back({{ 2 * c[0], c[1], 1 }});
-    options.circles.push_back({{ 2 * c[0] + distance_of_hemispheres, c[1], 1 }});
-  }
+    for(const bool is_back : {false, true})
+    {
+      const double x = 2 * c[0] + (is_back ? distance_of_hemispheres : 0);
+      options.circles.push_back({{ x, c[1], 1 }});
+      options.hemispheres.push_back({ {{ x, c[1] }}, is_back });
+    }
   return options;
 }
 
 // What gives a triangle its colour in the drawing.
-Face_map<double> face_colors(const Options& options, const Result& result)
+Face_map<double> face_colors(const Options& options, const Result& result, Figures& figures)
 {
   Mesh& mesh = result.mesh;
   Face_map<double> value = mesh.add_property_map<Face, double>("f:color", 0.).first;
@@ -156,6 +158,10 @@ Face_map<double> face_colors(const Options& options, const Result& result)
       ? CE::quasi_conformal_factor(mesh, result.uv, f)
       : (result.u[mesh.target(h)] + result.u[mesh.source(h)] + result.u[mesh.target(mesh.next(h))]) / 3;
   }
+  std::vector<double> values;
+  for(Face f : mesh.faces())
+    values.push_back(value[f]);
+  figures.color_range = Robust_range(values);
   return value;
 }
 
@@ -321,7 +327,7 @@ void write_outputs(const Options& options, const Mesh& mesh, Result& result, con
   write_layout_files(options, *figures.given, result, files);
   if(! options.svg.empty() || ! options.html.empty())
   {
-    const Face_map<double> colors = face_colors(options, result);
+    const Face_map<double> colors = face_colors(options, result, figures);
     HTML_options drawing = drawing_options(options, mesh, figures);
     if(has_faces_of_file)
       for(Mesh::Edge_index e : mesh.edges())
