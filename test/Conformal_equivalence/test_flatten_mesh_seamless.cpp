@@ -334,7 +334,10 @@ std::array<std::size_t, 2> mismatches(const checking::Glb_file& glb, const Color
       continue;
     for(double t = 1 / 16.; t < 1; t += 1 / 8.)
     {
-      const auto at = [&](const Floats& p, const Floats& q, double s) { return std::array<double, 2>{{ (1 - s) * p[0] + s * q[0], (1 - s) * p[1] + s * q[1] }}; };
+      const auto at = [&](const Floats& p, const Floats& q, double s)
+      {
+        return std::array<double, 2>{{ (1 - s) * p[0] + s * q[0], (1 - s) * p[1] + s * q[1] }};
+      };
       ++result[1];
       result[0] += std::abs(color(at(left.first, left.second, t)) - color(at(other->second.first, other->second.second, 1 - t))) > 1e-4;
     }
@@ -342,7 +345,8 @@ std::array<std::size_t, 2> mismatches(const checking::Glb_file& glb, const Color
   return result;
 }
 
-// Continuous functions with the symmetries of the lattices, of texture coordinates, the second one of which points down; the patterns are their signs.
+// Continuous functions with the symmetries of the lattices, of texture coordinates, the second one of which points down; the patterns are their
+// signs.
 double square_color(const std::array<double, 2>& p) { return std::cos(2 * CGAL_PI * p[0]) * std::cos(2 * CGAL_PI * p[1]); }
 
 double hexagon_color(const std::array<double, 2>& p)
@@ -402,7 +406,8 @@ BOOST_AUTO_TEST_CASE(textures_fit_across_seams)
     BOOST_TEST(count[1] > 0u);
     BOOST_TEST(mismatches(glb, [](const std::array<double, 2>& p) { return std::sin(p[0]); })[0] > 0u); // something else does not fit
   }
-  const Run r = run({sphere, "--seamless", "--cones", sphere_cones, "--quantize", "60", "--tiles", "100", "-o", folder / "o.glb", "-o", folder / "o.obj"});
+  const std::vector<std::string> hexagons = {sphere, "--seamless", "--cones", sphere_cones, "--quantize", "60", "--tiles", "100"};
+  const Run r = run(with(hexagons, {"-o", folder / "o.glb", "-o", folder / "o.obj"}));
   BOOST_TEST_REQUIRE(r.status == 0, r.err);
   BOOST_TEST(contains(r.err, "does not fit hexagons"));
   const auto count = mismatches(checking::Glb_file(content(folder / "o.glb")), hexagon_color);
@@ -410,8 +415,7 @@ BOOST_AUTO_TEST_CASE(textures_fit_across_seams)
   BOOST_TEST(count[1] > 0u);
 
   // the coordinates of the lattice have the same texture in both files
-  BOOST_TEST(run({sphere, "--seamless", "--cones", sphere_cones, "--quantize", "60", "--tiles", "100", "--lattice-coordinates", "-o", folder / "o.obj"})
-               .err.empty());
+  BOOST_TEST(run(with(hexagons, {"--lattice-coordinates", "-o", folder / "o.obj"})).err.empty());
   const flattening::Palette_image image = flattening::texture_image(flattening::Pattern::HEXAGON_TILES);
   BOOST_TEST((content(folder / "o.checker.png") == flattening::png_file(image)));
 }

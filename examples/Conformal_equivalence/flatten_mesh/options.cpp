@@ -241,8 +241,8 @@ void parse_options_of_target(const po::variables_map& values, const std::string&
   if(options.target == Target::HYPERBOLIC && (! options.glb.empty() || ! options.ply.empty()))
     throw Usage_error(target + " has no output in the formats GLB and PLY; -o *.obj has the disk coordinates");
   if(options.target == Target::HYPERBOLIC)
-    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by", "precision", "flat", "dxf",
-                             "true-scale"});
+    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by", "precision",
+                             "flat", "dxf", "true-scale"});
   exclude(values, target, {"cones", "seamless", "frame", "keep-border", "local-repair"});
   if(options.target == Target::SPHERE)
     exclude(values, target, {"projective", "html", "flat", "dxf", "true-scale"});

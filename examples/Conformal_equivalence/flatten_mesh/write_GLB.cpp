@@ -84,7 +84,8 @@ public:
     add_view(begin, 34962); // ARRAY_BUFFER
     add_to_list(accessors_, written([&](Text_buffer& out)
     {
-      out << "{\"bufferView\":" << number_of_views_ - 1 << ",\"componentType\":5126,\"count\":" << number_of_vertices_ << ",\"type\":\"" << type << '"';
+      out << "{\"bufferView\":" << number_of_views_ - 1 << ",\"componentType\":5126,\"count\":" << number_of_vertices_
+          << ",\"type\":\"" << type << '"';
       write_numbers(out, ",\"min\":", range, [](const Finite_range& r) { return r.lower; });
       write_numbers(out, ",\"max\":", range, [](const Finite_range& r) { return r.upper; });
       out << '}';

@@ -208,7 +208,8 @@ UV_map page_layout(const Figures& figures, const Result& result)
 }
 
 // The picture in a unit square of the layout. As it repeats from one to the next, squares of a checkerboard are at most half a unit wide; and
-// those of very small layouts are not as small as they could be, since the picture would be too large. Hexagons fit into coordinates of their lattice.
+// those of very small layouts are not as small as they could be, since the picture would be too large. Hexagons fit into the coordinates of their
+// lattice.
 Palette_image texture_of_OBJ(const Options& options, const Result& result)
 {
   const double most_repetitions = 100;

@@ -52,7 +52,8 @@ private:
     const double width = upper - lower;
     if(! (width > 0) || ! std::isfinite(width))
       return;
-    const double power = std::pow(10., std::floor(std::log10(width)) - 1), low = std::floor(lower / power) * power, high = std::ceil(upper / power) * power;
+    const double power = std::pow(10., std::floor(std::log10(width)) - 1);
+    const double low = std::floor(lower / power) * power, high = std::ceil(upper / power) * power;
     if(std::isfinite(low) && low <= lower && std::isfinite(high) && high >= upper) // otherwise numbers are too far apart, or too near
     {
       lower = low;

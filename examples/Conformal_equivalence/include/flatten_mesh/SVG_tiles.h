@@ -32,7 +32,8 @@ public:
     if(has_square_tiles() ? ! (squares > 0) : ! has_hexagonal_tiles() || ! (hexagons <= most_hexagons))
       return;
     out << "<defs><clipPath id=\"drawing-frame\"><rect width=\"" << frame_.width << "\" height=\"" << frame_.height << "\"/></clipPath></defs>\n"
-        << "<g clip-path=\"url(#drawing-frame)\"><path id=\"tiles\" transform=\"scale(.01)\" fill=\"none\" stroke=\"#000\" stroke-opacity=\".5\" stroke-width=\"80\" d=\"";
+        << "<g clip-path=\"url(#drawing-frame)\">"
+           "<path id=\"tiles\" transform=\"scale(.01)\" fill=\"none\" stroke=\"#000\" stroke-opacity=\".5\" stroke-width=\"80\" d=\"";
     if(has_square_tiles())
       write_squares(out, squares);
     else

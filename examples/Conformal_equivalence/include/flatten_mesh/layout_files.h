@@ -1,7 +1,8 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The formats of files, beside OBJ, that other programs read. Each function returns `true` iff the stream is good after writing, and takes linear time.
+// The formats of files, beside OBJ, that other programs read. Each function returns `true` iff the stream is good after writing, and takes linear
+// time.
 
 #ifndef FLATTEN_MESH_LAYOUT_FILES_H
 #define FLATTEN_MESH_LAYOUT_FILES_H
@@ -26,16 +27,17 @@ struct Texture_of_layout
   double repetitions = 1; // of the checkerboard, in a unit of the layout
 };
 
-// glTF 2.0 (Khronos 2021) in one binary file: the triangles in single precision, with the layout as texture coordinates that fit the texture, which is
-// in the file. TEXCOORD_0 is `repetitions` times (u, v), or the coordinates (a, b) of the hexagonal lattice, with the second one from the top, as glTF
-// has it. If `has_weights`, the weight of each vertex is the attribute _WEIGHT. Colours of the vertices of the file, if there are any, are COLOR_0, in
-// linear light. Throws a `Failure` that names `name` if a number is not finite in single precision, or there are more bytes than 2^32.
+// glTF 2.0 (Khronos 2021) in one binary file: the triangles in single precision, with the layout as texture coordinates that fit the texture, which
+// is in the file. TEXCOORD_0 is `repetitions` times (u, v), or the coordinates (a, b) of the hexagonal lattice, with 1 less the second one, as glTF
+// counts from the top. If `has_weights`, the weight of each vertex is the attribute _WEIGHT. Colours of the vertices of the file, if there are any,
+// are COLOR_0, in linear light. Throws a `Failure` that names `name` if a number is not finite in single precision, or there are more bytes than 2^32.
 bool write_GLB(std::ostream& out, const Given_surface& given, const Split_surface& surface, const Texture_of_layout& texture, bool has_weights,
                const std::string& name);
 
-// PLY, binary and in double precision: the faces that the OBJ file has, with a property `chart`, and the vertices with the properties x, y, z; s and t,
-// the layout; log_scale_factor, which is u (programs take a property of this name for a texture coordinate); weight, e^-u, the largest 1; and vertex,
-// the number that the vertex has in the OBJ file, from 0. A chart is a piece of the layout that is connected by edges. There is no layout on the sphere.
+// PLY, binary and in double precision: the faces that the OBJ file has, with a property `chart`, and the vertices with the properties x, y, z; s and
+// t, the layout; log_scale_factor, which is u (programs take a property of that name for a texture coordinate); weight, e^-u, the largest 1; and
+// vertex, the number that the vertex has in the OBJ file, from 0. A chart is a piece of the layout that is connected by edges. There is no layout on
+// the sphere.
 bool write_PLY(std::ostream& out, const Given_surface& given, const Split_surface& surface);
 
 // The layout as a surface in the plane z = 0, as OBJ: the faces that the OBJ file has, in their order.

@@ -68,7 +68,8 @@ inline double distance_from_hexagonal_lattice(double a, double b)
   return least;
 }
 
-// The hexagons about the points of the lattice, in the coordinates (a, b): dark, with a light rim. Rows of pixels begin at the top, where b is largest.
+// The hexagons about the points of the lattice, in the coordinates (a, b): dark, with a light rim. Rows of pixels begin at the top,
+// where b is largest.
 inline Palette_image hexagon_tile()
 {
   const std::uint32_t side = 256, samples = 3;
