@@ -6,6 +6,7 @@
 #define BOOST_TEST_MODULE test_flatten_mesh_files
 #include "include/boost_test.h"
 #include "include/check_flattening.h"
+#include "include/layout_files.h"
 #include "include/program_runs.h"
 
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/Given_surface.h"
@@ -727,7 +728,10 @@ BOOST_AUTO_TEST_CASE(colours_of_vertices_are_kept)
   {
     const Run r = run(with({folder.write("a.obj", square), "-o", folder / "o.obj"}, options));
     BOOST_TEST(r.status == 0);
-    BOOST_TEST(r.err == "");
+    if(options.size() > 1)
+      BOOST_TEST(contains(r.err, "texture coordinates of the OBJ file are homogeneous"));
+    else
+      BOOST_TEST(r.err == "");
     BOOST_TEST(lines_with("v", content(folder / "o.obj")) == coloured);
   }
   BOOST_TEST(run({folder / "o.obj", "-o", folder / "p.obj"}).status == 0);
@@ -1134,6 +1138,243 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_oriented)
 }
 
 // ------------------------------------------------------------------------------------------------
+// What other programs read
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+typedef std::multimap<std::array<double, 2>, std::array<double, 2> > Segments;
+
+// The directed edges of the layout at which it ends, `scale` times as large: those of borders, or those of seams.
+Segments outline(const Obj& obj, bool of_border, double scale)
+{
+  std::map<std::pair<std::size_t, std::size_t>, std::pair<std::size_t, std::size_t> > sides; // by vertices: the places
+  const auto each = [&](const auto& visit)
+  {
+    for(std::size_t f = 0; f < obj.faces.size(); ++f)
+      for(std::size_t k = 0, n = obj.faces[f].size(); k < n; ++k)
+        visit(std::make_pair(obj.faces[f][k], obj.faces[f][(k + 1) % n]), std::make_pair(obj.corners[f][k], obj.corners[f][(k + 1) % n]));
+  };
+  each([&](const auto& edge, const auto& places) { sides[edge] = places; });
+  Segments result;
+  each([&](const auto& edge, const auto& places)
+  {
+    const auto other = sides.find({edge.second, edge.first});
+    const bool is_border = other == sides.end();
+    if(is_border != of_border || (! is_border && other->second == std::make_pair(places.second, places.first)))
+      return;
+    const auto scaled = [&](std::size_t place) { return std::array<double, 2>{{ obj.places[place][0] * scale, obj.places[place][1] * scale }}; };
+    result.emplace(scaled(places.first), scaled(places.second));
+  });
+  return result;
+}
+
+std::size_t number_of_places(const Obj& obj)
+{
+  std::set<std::pair<std::size_t, std::size_t> > places;
+  for(std::size_t f = 0; f < obj.faces.size(); ++f)
+    for(std::size_t k = 0; k < obj.faces[f].size(); ++k)
+      places.emplace(obj.faces[f][k], obj.corners[f][k]);
+  return places.size();
+}
+
+// The faces, points and layout are those of the OBJ file, bit for bit; u and the weights are of one scale.
+void check_ply(const checking::Ply_file& ply, const Obj& obj)
+{
+  BOOST_TEST(ply.vertices.size() == number_of_places(obj));
+  BOOST_TEST_REQUIRE(ply.faces.size() == obj.faces.size());
+  for(std::size_t f = 0; f < obj.faces.size(); ++f)
+  {
+    BOOST_TEST_REQUIRE(ply.faces[f].size() == obj.faces[f].size());
+    for(std::size_t k = 0; k < obj.faces[f].size(); ++k)
+    {
+      const auto& v = ply.vertices.at(ply.faces[f][k]);
+      BOOST_TEST((std::array<double, 3>{{ v.at("x"), v.at("y"), v.at("z") }} == obj.points[obj.faces[f][k]]));
+      BOOST_TEST((std::array<double, 2>{{ v.at("s"), v.at("t") }} == obj.place(f, k)));
+      BOOST_TEST(v.at("vertex") == double(obj.faces[f][k]));
+    }
+  }
+  double largest = 0, least_u = std::numeric_limits<double>::infinity();
+  for(const auto& v : ply.vertices)
+  {
+    largest = (std::max)(largest, v.at("weight"));
+    least_u = (std::min)(least_u, v.at("log_scale_factor"));
+  }
+  BOOST_TEST(largest == 1.);
+  for(const auto& v : ply.vertices)
+    BOOST_TEST(std::abs(v.at("weight") * std::exp(v.at("log_scale_factor") - least_u) - 1) < 1e-13);
+}
+
+// The layout as a surface in the plane.
+void check_flat(const Obj& flat, const Obj& obj)
+{
+  BOOST_TEST(flat.points.size() == number_of_places(obj));
+  BOOST_TEST_REQUIRE(flat.faces.size() == obj.faces.size());
+  for(std::size_t f = 0; f < obj.faces.size(); ++f)
+    for(std::size_t k = 0; k < obj.faces[f].size(); ++k)
+      BOOST_TEST((flat.points.at(flat.faces[f].at(k)) == std::array<double, 3>{{ obj.place(f, k)[0], obj.place(f, k)[1], 0 }}));
+}
+
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+// The triangles of the OBJ file in single precision. The texture has `repetitions` steps in a unit of the layout, and begins at the top.
+void check_glb(const checking::Glb_file& glb, const Obj& obj, double repetitions)
+{
+  BOOST_TEST(glb.attributes.at("POSITION").size() == number_of_places(obj));
+  BOOST_TEST_REQUIRE(glb.indices.size() == 3 * obj.faces.size());
+  for(std::size_t f = 0; f < obj.faces.size(); ++f)
+  {
+    std::multiset<std::vector<float> > expected, found; // triangles may begin with another corner
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      const auto& p = obj.points[obj.faces[f][k]];
+      const auto q = obj.place(f, k);
+      expected.insert({ float(p[0]), float(p[1]), float(p[2]), float(q[0] * repetitions), float(1 - q[1] * repetitions) });
+      std::vector<float> corner = glb.attributes.at("POSITION")[glb.indices[3 * f + k]];
+      for(float x : glb.attributes.at("TEXCOORD_0")[glb.indices[3 * f + k]])
+        corner.push_back(x);
+      found.insert(corner);
+    }
+    BOOST_TEST((found == expected));
+  }
+  BOOST_TEST(glb.image.substr(0, 8) == "\x89PNG\r\n\x1a\n");
+}
+#endif
+
+} // namespace
+
+// Of a closed surface that is cut, and of a disk, in one run each: the files say the same.
+BOOST_AUTO_TEST_CASE(formats_of_other_programs)
+{
+  const Folder folder;
+  std::string closed;
+  for(const auto& p : spiky_icosahedron().points)
+    closed += "v " + point(p) + '\n';
+  for(const auto& t : spiky_icosahedron().triangles)
+    closed += "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' + std::to_string(t[2] + 1) + '\n';
+  const std::vector<std::vector<std::string> > inputs = { { folder.write("closed.obj", closed), "--cones", "auto=4" },
+                                                          { folder.write("grid.off", as_off(bumpy_grid(6))) } };
+  for(const std::vector<std::string>& input : inputs)
+  {
+    const Run r = run(with(input, {"-o", folder / "o.obj", "-o", folder / "o.glb", "-o", folder / "o.ply", "--flat", folder / "flat.obj", "--dxf",
+                                   folder / "o.dxf", "--svg", folder / "o.svg", "--true-scale", "25.4"}));
+    BOOST_TEST_REQUIRE(r.status == 0, r.err);
+    BOOST_TEST(contains(r.out, "wrote " + folder / "o.dxf"));
+    const Obj obj(folder / "o.obj");
+    const bool is_closed = input.size() > 1;
+    BOOST_TEST((number_of_places(obj) > obj.points.size()) == is_closed);
+    check_ply(checking::Ply_file(content(folder / "o.ply")), obj);
+    check_flat(Obj(folder / "flat.obj"), obj);
+    const checking::Dxf_file dxf(content(folder / "o.dxf"));
+    for(const bool of_border : {true, false})
+    {
+      const Segments expected = outline(obj, of_border, 25.4), found = dxf.segments(of_border ? "OUTLINE" : "CUTS");
+      BOOST_TEST(expected.empty() == (of_border == is_closed));
+      BOOST_TEST((std::set<Segments::value_type>(found.begin(), found.end()) == std::set<Segments::value_type>(expected.begin(), expected.end())));
+      BOOST_TEST(found.size() == expected.size());
+    }
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+    double least[2] = {1e9, 1e9}, most[2] = {-1e9, -1e9};
+    for(const auto& p : obj.places)
+      for(std::size_t k = 0; k < 2; ++k)
+      {
+        least[k] = (std::min)(least[k], p[k]);
+        most[k] = (std::max)(most[k], p[k]);
+      }
+    check_glb(checking::Glb_file(content(folder / "o.glb")), obj,
+              0.5 / flattening::round_number_below((std::max)(most[0] - least[0], most[1] - least[1]) / 14));
+#endif
+    // a unit of the layout is 25.4 mm: of the drawing, the side of its viewBox and its width are in the same proportion
+    const std::string svg = content(folder / "o.svg");
+    double x = 0, y = 0, width = 0, height = 0, mm_wide = 0, mm_high = 0;
+    BOOST_TEST(std::sscanf(svg.substr(svg.find("viewBox")).c_str(), "viewBox=\"%lf %lf %lf %lf", &x, &y, &width, &height) == 4);
+    BOOST_TEST(std::sscanf(svg.substr(svg.find(" width=")).c_str(), " width=\"%lfmm\" height=\"%lfmm\"", &mm_wide, &mm_high) == 2);
+    const Segments border = outline(obj, ! is_closed, 25.4);
+    double longest = 0; // side of the box around the layout, which the drawing has as 1000
+    for(std::size_t k = 0; k < 2; ++k)
+    {
+      const auto less = [k](const auto& a, const auto& b) { return a.first[k] < b.first[k]; };
+      const auto range = std::minmax_element(border.begin(), border.end(), less);
+      longest = (std::max)(longest, range.second->first[k] - range.first->first[k]);
+    }
+    BOOST_TEST(std::abs(mm_wide / width * 1000 / longest - 1) < 1e-12);
+    BOOST_TEST(std::abs(mm_high / height * 1000 / longest - 1) < 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(formats_keep_polygons_and_colours)
+{
+  const Folder folder;
+  const std::string faces = "f 1 2 3 4\nf 2 5 3\n";
+  const std::string input = folder.write("a.obj", "v 0 0 0 1 0 0.5\nv 1 0 0 0.25 0.125 0\nv 1 1 .1\nv 0 1 0\nv 2 0 0 0.1 0.2 0.04\n" + faces);
+  BOOST_TEST(run({input, "-o", folder / "o.obj", "-o", folder / "o.ply", "-o", folder / "o.glb", "--flat", folder / "f.obj"}).status == 0);
+  check_ply(checking::Ply_file(content(folder / "o.ply")), Obj(folder / "o.obj"));
+  check_flat(Obj(folder / "f.obj"), Obj(folder / "o.obj"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const checking::Glb_file glb(content(folder / "o.glb"));
+  BOOST_TEST(glb.indices.size() == 9u);
+  BOOST_TEST(! glb.attributes.count("_WEIGHT"));
+  std::map<float, std::vector<float> > color; // by x + 4 y
+  for(std::size_t i = 0; i < 5; ++i)
+    color[glb.attributes.at("POSITION")[i][0] + 4 * glb.attributes.at("POSITION")[i][1]] = glb.attributes.at("COLOR_0")[i];
+  BOOST_TEST((color[4] == std::vector<float>{1, 1, 1})); // none was given
+  BOOST_TEST(color[0][0] == 1);
+  BOOST_TEST(color[0][1] == 0);
+  BOOST_TEST(std::abs(color[0][2] - 0.214041) < 1e-5); // sRGB of IEC 61966-2-1
+  BOOST_TEST(std::abs(color[2][2] - 0.04 / 12.92) < 1e-7);
+
+  // weights, if they are asked for
+  BOOST_TEST(run({input, "-o", folder / "o.glb", "--projective"}).err.empty());
+  const checking::Glb_file weighted(content(folder / "o.glb"));
+  BOOST_TEST(weighted.attributes.at("_WEIGHT").size() == 5u);
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(formats_on_the_sphere)
+{
+  const Folder folder;
+  std::string obj;
+  for(const auto& p : spiky_icosahedron().points)
+    obj += "v " + point(p) + '\n';
+  for(const auto& t : spiky_icosahedron().triangles)
+    obj += "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' + std::to_string(t[2] + 1) + '\n';
+  const std::string input = folder.write("s.obj", obj);
+  BOOST_TEST(run({input, "--target", "sphere", "-o", folder / "o.obj", "-o", folder / "o.ply", "-o", folder / "o.glb"}).status == 0);
+  const Obj sphere(folder / "o.obj");
+  const checking::Ply_file ply(content(folder / "o.ply"));
+  BOOST_TEST_REQUIRE(ply.vertices.size() == sphere.points.size());
+  for(const auto& v : ply.vertices)
+    BOOST_TEST((std::array<double, 3>{{ v.at("x"), v.at("y"), v.at("z") }} == sphere.points.at(static_cast<std::size_t>(v.at("vertex")))));
+  BOOST_TEST(! ply.vertices[0].count("s"));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const checking::Glb_file glb(content(folder / "o.glb"));
+  BOOST_TEST(glb.attributes.size() == 1u);
+  BOOST_TEST(glb.attributes.at("POSITION").size() == sphere.points.size());
+  BOOST_TEST(glb.image.empty());
+#endif
+  for(const char* option : {"--flat", "--dxf"})
+    check_refused({input, "--target", "sphere", option, folder / "x.obj"}, 2, "exclude each other");
+}
+
+// Nothing is written of what does not fit into a format.
+BOOST_AUTO_TEST_CASE(formats_that_cannot_be_written)
+{
+  const Folder folder;
+  Soup soup = bumpy_grid(3);
+  const std::string grid = folder.write("grid.off", as_off(soup));
+  for(auto& p : soup.points)
+    for(double& x : p)
+      x *= 1e100;
+  const std::string large = folder.write("large.off", as_off(soup));
+  check_refused({large, "-o", folder / "o.obj", "-o", folder / "o.glb"}, 1, "is beyond single precision, which GLB files have");
+  check_refused({large, "-o", folder / "o.obj", "--dxf", folder / "o.dxf", "--true-scale", "1e300"}, 1, "is not finite");
+  check_refused({grid, "-o", folder / "o.obj", "--true-scale", "10"}, 2, "--true-scale needs --svg or --dxf");
+  check_refused({grid, "--svg", folder / "o.svg", "--true-scale", "-1"}, 2, "--true-scale takes a number above 0");
+  check_refused({grid, "--target", "hyperbolic", "-o", folder / "o.glb"}, 2, "no output in the formats GLB and PLY");
+  check_refused({grid, "--flat", ""}, 2, "--flat needs the name of a file");
+  BOOST_TEST(folder.files().size() == 2u);
+}
+
+// ------------------------------------------------------------------------------------------------
 // What is written: all or nothing
 // ------------------------------------------------------------------------------------------------
 
@@ -1165,8 +1406,10 @@ BOOST_AUTO_TEST_CASE(names_of_outputs)
 {
   const Folder folder;
   const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
-  for(const char* name : {"o.ply", "o.x", "o.obj.bak", "o.off"})
-    check_refused({input, "-o", folder / name}, 2, "-o writes OBJ files, named *.obj");
+  for(const char* name : {"o.gltf", "o.x", "o.obj.bak", "o.off"})
+    check_refused({input, "-o", folder / name}, 2, "-o writes OBJ files, named *.obj, GLB files, named *.glb, and PLY files, named *.ply, not");
+  check_refused({input, "-o", folder / "o.glb", "-o", folder / "p.GLB"}, 2, "once for each format");
+  check_refused({input, "-o", folder / "o.obj", "--flat", folder / "o.obj"}, 2, "two outputs have the same name");
   BOOST_TEST(folder.files().size() == 1u);
   BOOST_TEST(run({input, "-o", folder / "o.OBJ", "--quiet"}).status == 0);
   BOOST_TEST(run({input, "-o", "/dev/null", "--quiet"}).status == 0);

@@ -764,6 +764,132 @@ BOOST_AUTO_TEST_CASE(the_page_of_a_cube)
 }
 
 // ------------------------------------------------------------------------------------------------
+// What stands beside and in a drawing
+// ------------------------------------------------------------------------------------------------
+
+namespace {
+
+// The numbers beside seams, and how often each is there.
+std::map<std::string, int> seam_numbers(const std::string& svg)
+{
+  const std::string numbers = group(svg, "seam-numbers");
+  std::map<std::string, int> result;
+  for_each_element(numbers, "text", [&](std::size_t i)
+  {
+    const std::size_t begin = numbers.find('>', i) + 1;
+    ++result[numbers.substr(begin, numbers.find('<', begin) - begin)];
+  });
+  return result;
+}
+
+} // namespace
+
+// Each side has the number of its path in its middle, which the title has, too; and what lines and dots are is said.
+BOOST_AUTO_TEST_CASE(seams_have_numbers)
+{
+  const Unfolded surface = cube();
+  const std::string svg = drawing(surface.mesh, surface.uv);
+  std::map<std::string, int> expected;
+  for(int i = 1; i <= 7; ++i)
+    expected[std::to_string(i)] = 2;
+  BOOST_TEST((seam_numbers(svg) == expected));
+  const std::vector<Drawn_seam> seams = drawn_seams(svg);
+  const std::string numbers = group(svg, "seam-numbers");
+  std::size_t n = 0;
+  for_each_element(numbers, "text", [&](std::size_t i)
+  {
+    const Polyline& side = seams[n / 2].sides[n % 2];
+    ++n;
+    const double x = (side[0].first + side[1].first) / 200, y = (side[0].second + side[1].second) / 200;
+    BOOST_TEST(std::abs(std::stod(attribute(numbers, "x", i)) - x) <= 0.1);
+    BOOST_TEST(std::abs(std::stod(attribute(numbers, "y", i)) - 5 - y) <= 0.1);
+  });
+  BOOST_TEST(svg.find("both sides of a seam") != std::string::npos);
+  BOOST_TEST(svg.find("a cone") != std::string::npos);
+
+  // where there is no room, there is none
+  flattening::SVG_options tiny;
+  tiny.size = 100; // sides of 25
+  BOOST_TEST(seam_numbers(drawing(surface.mesh, surface.uv, tiny)).empty());
+  tiny.seams = tiny.cones = false;
+  const std::string plain = drawing(surface.mesh, surface.uv, tiny);
+  BOOST_TEST(plain.find("both sides of a seam") == std::string::npos);
+  BOOST_TEST(plain.find("a cone") == std::string::npos);
+}
+
+// From percentiles to percentiles, rounded outwards to two digits of the width; what is beyond is counted.
+BOOST_AUTO_TEST_CASE(colours_are_for_most_values)
+{
+  typedef flattening::Robust_range Range;
+  std::vector<double> values;
+  for(int i = 0; i <= 1000; ++i)
+    values.push_back(1 + i / 1000. * .377); // percentiles: 1.00377, 1.37323
+  const Range even(values);
+  BOOST_TEST(std::abs(even.lower - 1) < 1e-15);
+  BOOST_TEST(std::abs(even.upper - 1.38) < 1e-15);
+  BOOST_TEST(even.number_below + even.number_above == 0u);
+
+  const double infinity = std::numeric_limits<double>::infinity();
+  for(double extreme : {1e6, infinity})
+  {
+    std::vector<double> with_extremes = values;
+    with_extremes.insert(with_extremes.end(), 5, extreme);
+    with_extremes.insert(with_extremes.end(), 3, -extreme);
+    with_extremes.push_back(std::numeric_limits<double>::quiet_NaN());
+    const Range range(with_extremes);
+    BOOST_TEST(std::abs(range.lower - 1) < 1e-15);
+    BOOST_TEST(std::abs(range.upper - 1.38) < 1e-15);
+    BOOST_TEST(range.number_above == 5u);
+    BOOST_TEST(range.number_below == 3u);
+    BOOST_TEST(range.parameter(extreme) == 1.);
+    BOOST_TEST(range.parameter(-extreme) == 0.);
+  }
+
+  // of few values all; of one the value itself; and of none nothing
+  const Range few({0, 3.14159, 7.5});
+  BOOST_TEST(few.lower == 0.);
+  BOOST_TEST(few.upper == 7.5);
+  const Range one({.123456789});
+  BOOST_TEST((one.lower == .123456789 && one.upper == .123456789));
+  BOOST_TEST(one.parameter(.123456789) == .5);
+  BOOST_TEST(Range({infinity}).empty());
+  const double most = (std::numeric_limits<double>::max)();
+  const Range widest({-most, most});
+  BOOST_TEST((widest.lower == -most && widest.upper == most));
+}
+
+// Tiles end where the frame does; the sphere has names.
+BOOST_AUTO_TEST_CASE(frames_and_spheres)
+{
+  const std::string hexagons = drawing_of_square(-3.2, -3.2, 10, 6, 10);
+  const std::size_t clip = hexagons.find("<clipPath id=\"drawing-frame\"><rect width=\"10\" height=\"10\"/>"),
+                    tiles = hexagons.find("<g clip-path=\"url(#drawing-frame)\"><path id=\"tiles\"");
+  BOOST_TEST(clip != std::string::npos);
+  BOOST_TEST(tiles != std::string::npos);
+
+  const Unfolded surface = cube();
+  flattening::SVG_options options;
+  options.circles = { {{0, 0, 1}}, {{2.2, 0, 1}} };
+  options.hemispheres = { {{{0, 0}}, false}, {{{2.2, 0}}, true} };
+  const std::string svg = drawing(surface.mesh, surface.uv, options), axes = group(svg, "axes"), lines = group(svg, "graticule");
+  BOOST_TEST(axes.find("front, seen from z") != std::string::npos);
+  BOOST_TEST(axes.find("back, seen from \u2212z") != std::string::npos);
+  // the x-axis points to the right in front, and to the left on the back
+  std::vector<double> x;
+  for_each_element(axes, "text", [&](std::size_t i)
+  {
+    if(axes[axes.find('>', i) + 1] == 'x')
+      x.push_back(std::stod(attribute(axes, "x", i)));
+  });
+  std::vector<double> centre;
+  for_each_element(lines, "circle", [&](std::size_t i) { centre.push_back(std::stod(attribute(lines, "cx", i))); });
+  BOOST_TEST_REQUIRE(x.size() == 2u);
+  BOOST_TEST_REQUIRE(centre.size() == 4u); // two circles of latitude on each side
+  BOOST_TEST(x[0] > centre[0]);
+  BOOST_TEST(x[1] < centre[3]);
+}
+
+// ------------------------------------------------------------------------------------------------
 // The checker on these layouts
 // ------------------------------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@
 #include "../include/flatten_mesh/figures.h"
 #include "../include/flatten_mesh/Given_surface.h"
 #include "../include/flatten_mesh/hyperbolic.h"
+#include "../include/flatten_mesh/layout_files.h"
 #include "../include/flatten_mesh/mesh.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/OBJ_attribute_writer.h"
@@ -25,6 +26,7 @@
 #include <CGAL/Conformal_equivalence/version.h>
 #include <CGAL/version.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <new>
@@ -75,8 +77,8 @@ void require_verdict(const Options& options, const Figures& figures)
 // Whether an output goes to the standard output, which is then for nothing else.
 bool is_output_in_stream(const Options& options)
 {
-  return is_standard_stream(options.obj) || is_standard_stream(options.svg) || is_standard_stream(options.html)
-      || is_standard_stream(options.report);
+  const std::vector<std::string> files = outputs(options);
+  return std::any_of(files.begin(), files.end(), is_standard_stream);
 }
 
 // What is said beside the figures: what of the file was skipped, or is not written.
@@ -91,6 +93,11 @@ std::vector<std::string> notices(const Options& options, const Given_surface& gi
     say("its normals are not written: they are not those of the mesh that is written");
   if(! options.obj.empty() && ! given.attributes.colors.empty() && ! drawn.given_face.empty())
     say("the colours of its vertices are not written: they are not those of the mesh that is written");
+  if(options.projective && ! options.obj.empty())
+    say("texture coordinates of the OBJ file are homogeneous, u w, v w, w: programs that do not divide by w show them wrong "
+        "(-o *.glb and -o *.ply have u, v and w)");
+  if(! beside.material.empty() && texture_pattern(options) == Pattern::HEXAGON_TILES && ! options.lattice_coordinates)
+    say("the checkerboard beside the OBJ file does not fit hexagons: the hexagons of --lattice-coordinates do, and those of -o *.glb");
   if(! beside.foreign_material.empty())
     result.push_back(one_line(text("the material is in ", beside.material, ": ", beside.foreign_material,
                                    " was not written by this program, and is kept")));

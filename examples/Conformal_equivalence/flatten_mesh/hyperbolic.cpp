@@ -235,8 +235,8 @@ void run_hyperbolic(const Options& options, Output_files& files, std::ostream& o
   files.commit();
   if(options.quiet)
     return;
-  const bool is_out_taken = is_standard_stream(options.obj) || is_standard_stream(options.svg) || is_standard_stream(options.html)
-                         || is_standard_stream(options.report);
+  const std::vector<std::string> written = outputs(options);
+  const bool is_out_taken = std::any_of(written.begin(), written.end(), is_standard_stream);
   std::size_t width = 0;
   for(const auto& line : lines)
     width = (std::max)(width, line.first.size());

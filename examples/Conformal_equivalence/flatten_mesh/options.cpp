@@ -38,9 +38,16 @@ po::options_description visible_options()
 {
   po::options_description options("Options", 110, 76); // longer names of values have a line of their own
   options.add_options()
-    ("output,o", word("FILE"), "write the mesh with the layout as texture coordinates to this OBJ file, "
-                               "and a material (.mtl, .checker.png) beside it")
+    ("output,o", po::value<std::vector<std::string> >()->composing()->value_name("FILE"),
+       "write the mesh with the layout as texture coordinates to this file; once for each format:\n"
+       ".obj (also other names without an extension, and '-'): all digits, with a material (.mtl, .checker.png) beside it\n"
+       ".glb: glTF 2.0, in single precision, with a texture that fits the layout\n"
+       ".ply: double precision, with u, the weights of --projective, and the charts; vertices are split at seams")
+    ("flat", word("FILE"), "write the layout as a surface in the plane z = 0 to this OBJ file")
+    ("dxf", word("FILE"), "write borders (layer OUTLINE) and seams (layer CUTS) of the layout as DXF, for cutters")
     ("svg", word("FILE"), "draw the layout")
+    ("true-scale", word("MM"), "with --svg or --dxf, a unit of the layout is so many millimetres long: the drawing has its true "
+       "width and height, the numbers of the DXF file are millimetres")
     ("html", word("FILE"), "write a page that shows the textured mesh and the layout")
     ("report", word("FILE"), "write the figures as JSON; of several inputs, those of all as one array, unless the name has a %")
     ("boundary", po::value<std::vector<std::string> >()->composing()->value_name("natural|rectangle[=I,J,K,L]|angles=FILE|scale=FILE|disk"),
@@ -116,7 +123,7 @@ po::options_description visible_options()
        "the result is the same for any number")
     ("default-input", word("FILE"), "the INPUT if none is given; for scripts")
     ("default-output", word("FOLDER"), "where NAME.obj, NAME.svg and NAME.json are written, NAME being that of INPUT without its "
-       "extension, if none of -o, --svg, --html and --report is given; for scripts")
+       "extension, if no output is asked for; for scripts")
     ("format", word("off|obj|ply|stl"), "what INPUT is; by default its extension tells, and of the standard input its beginning")
     ("print", word("man|bash|zsh|fish"), "print the manual page, or what a shell needs to complete these options")
     ("quiet", po::bool_switch(), "no summary and no progress")
@@ -244,11 +251,14 @@ void parse_options_of_target(const po::variables_map& values, const std::string&
   require(options.target == Target::DISK, values, "--target disk", {"disk-centre", "disk-points"});
   if(options.target == Target::PLANE)
     return;
+  if(options.target == Target::HYPERBOLIC && (! options.glb.empty() || ! options.ply.empty()))
+    throw Usage_error(target + " has no output in the formats GLB and PLY; -o *.obj has the disk coordinates");
   if(options.target == Target::HYPERBOLIC)
-    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by", "precision"});
+    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by", "precision",
+                             "flat", "dxf", "true-scale"});
   exclude(values, target, {"cones", "seamless", "frame", "keep-border", "local-repair"});
   if(options.target == Target::SPHERE)
-    exclude(values, target, {"projective", "html"});
+    exclude(values, target, {"projective", "html", "flat", "dxf", "true-scale"});
   if(is_given(values, "disk-centre"))
     exclude(values, "--disk-centre", {"disk-points", "moebius-weights"});
   if(is_given(values, "disk-points"))
@@ -493,27 +503,46 @@ void set_default_outputs(const std::string& folder, Options& options)
 #endif
 }
 
+// One file of -o, whose extension says its format.
+void parse_output(const std::string& file, Options& options)
+{
+  if(file.empty())
+    throw Usage_error("--output needs the name of a file");
+  const bool is_obj = file == "-" || std::filesystem::path(file).extension().empty() || has_extension(file, ".obj") || is_special_file(file);
+  if(! is_obj && ! has_extension(file, ".glb") && ! has_extension(file, ".ply"))
+    throw Usage_error(text("-o writes OBJ files, named *.obj, GLB files, named *.glb, and PLY files, named *.ply, not '", file, "'"));
+  std::string& place = is_obj ? options.obj : has_extension(file, ".glb") ? options.glb : options.ply;
+  if(! place.empty())
+    throw Usage_error(text("-o is given once for each format, not for both '", place, "' and '", file, "'"));
+  place = file;
+}
+
 // The files to be read and written.
 void parse_files(const po::variables_map& values, Options& options)
 {
-  options.obj = output_file(values, "output");
+  if(values.count("output"))
+    for(const std::string& file : values["output"].as<std::vector<std::string> >())
+      parse_output(file, options);
   options.svg = output_file(values, "svg");
   options.html = output_file(values, "html");
   options.report = output_file(values, "report");
+  options.flat = output_file(values, "flat");
+  options.dxf = output_file(values, "dxf");
+  require(! options.svg.empty() || ! options.dxf.empty(), values, "--svg or --dxf", {"true-scale"});
+  if(is_given(values, "true-scale"))
+    options.true_scale = parse_number_above(0, values, "true-scale");
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
   if(! options.report.empty())
     throw Usage_error("--report is not available: the program was built without nlohmann-json");
 #endif
-  if(! options.obj.empty() && options.obj != "-" && ! std::filesystem::path(options.obj).extension().empty()
-     && ! has_extension(options.obj, ".obj") && ! is_special_file(options.obj))
-    throw Usage_error(text("-o writes OBJ files, named *.obj, not '", options.obj, "'"));
   if(values.count("input"))
     options.inputs = values["input"].as<std::vector<std::string> >();
   else if(values.count("default-input"))
     options.inputs = { values["default-input"].as<std::string>() };
   if(values.count("format"))
     options.format = values["format"].as<std::string>();
-  if(options.obj.empty() && options.svg.empty() && options.html.empty() && options.report.empty() && values.count("default-output"))
+  const std::vector<std::string> files = outputs(options);
+  if(values.count("default-output") && std::all_of(files.begin(), files.end(), [](const std::string& file) { return file.empty(); }))
     set_default_outputs(values["default-output"].as<std::string>(), options);
 }
 
@@ -525,7 +554,10 @@ void check_names_of_outputs(const Options& options)
     if(options.inputs.size() > 1 && ! file.empty() && ! names_input(file))
       throw Usage_error(text(option, " needs a % in the name of its file, which stands for the name of each of the several inputs"));
   };
-  check("-o", options.obj);
+  for(const std::string& file : {options.obj, options.glb, options.ply})
+    check("-o", file);
+  check("--flat", options.flat);
+  check("--dxf", options.dxf);
   check("--svg", options.svg);
   check("--html", options.html);
 }
@@ -537,7 +569,7 @@ void check_standard_streams(const Options& options)
   const auto inputs = number(options.inputs), conditions = number({options.cone_file, options.holonomy_file, options.angle_file, options.scale_file});
   if(inputs + conditions > 1 || (conditions != 0 && options.inputs.size() > 1))
     throw Usage_error("the standard input, '-', can be read only once");
-  if(number({options.obj, options.svg, options.html, options.report}) > 1)
+  if(number(outputs(options)) > 1)
     throw Usage_error("only one output can be written to the standard output, '-'");
 }
 
@@ -552,6 +584,11 @@ std::vector<std::string> solver_names()
 }
 
 } // namespace
+
+std::vector<std::string> outputs(const Options& options)
+{
+  return { options.obj, options.glb, options.ply, options.flat, options.dxf, options.svg, options.html, options.report };
+}
 
 std::string help_text()
 {

@@ -111,6 +111,13 @@ void add_topology(const Report& report, Lines& lines)
                        text(lattice.tau[0], " + ", lattice.tau[1], " i"));
 }
 
+// Triangles whose values are not among those over which colours are spread.
+std::string beyond_text(const Robust_range& range)
+{
+  const std::size_t n = range.number_below + range.number_above;
+  return n == 0 ? "" : text(", ", count(n, "triangle", "triangles"), " beyond");
+}
+
 const char* class_text(const CE::Statistics& s)
 {
   switch(s.conformal_class)
@@ -184,6 +191,9 @@ Lines summary(const Options& options, const Mesh& mesh, const Figures& figures)
                        text(figures.number_of_made_vertices, " vertices, ", figures.number_of_made_faces, " triangles"));
   lines.emplace_back("log scale factor u", text("from ", figures.u_min, " to ", figures.u_max));
   lines.emplace_back("quasi-conformal factor", quasi_conformal_text(mesh, figures));
+  if(figures.color_range && ! figures.color_range->empty())
+    lines.emplace_back("colours", text(options.color_by_quasi_conformal_factor ? "quasi-conformal factor" : "u", " from ", figures.color_range->lower,
+                                       " to ", figures.color_range->upper, beyond_text(*figures.color_range)));
   lines.emplace_back("flipped triangles", text(figures.verdict.number_of_flipped_triangles, " (exact)",
     options.target != Target::PLANE && figures.verdict.number_of_flipped_triangles != 0 ? ", by rounding" : ""));
   if(figures.verdict.number_of_degenerate_triangles != 0)
@@ -209,7 +219,10 @@ void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, 
   out << options.input << '\n';
   for(const auto& line : summary(options, mesh, figures))
     out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
-  for(const std::string& file : {options.obj, options.svg, options.html, options.is_report_joint ? std::string() : options.report})
+  Options told(options);
+  if(options.is_report_joint)
+    told.report.clear();
+  for(const std::string& file : outputs(told))
     if(! file.empty() && file != "-")
       out << "  wrote " << file << '\n';
 }

@@ -4,7 +4,9 @@
 #include "../include/flatten_mesh/write_outputs.h"
 #include "../include/flatten_mesh/color_scale.h"
 #include "../include/flatten_mesh/Components.h"
+#include "../include/flatten_mesh/layout_files.h"
 #include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/Split_surface.h"
 #include "../include/flatten_mesh/Stopwatch.h"
 #include "../include/flatten_mesh/write_HTML.h"
 #include "../include/flatten_mesh/write_material.h"
@@ -22,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
@@ -36,17 +39,6 @@ namespace {
 std::string name_without_folder(const std::string& file)
 {
   return std::filesystem::path(file).filename().string();
-}
-
-// Its point, beside those of other components.
-template <typename NT>
-std::array<NT, 3> placed_point(const Result& result, const std::vector<std::array<NT, 3> >& points, std::size_t v)
-{
-  std::array<NT, 3> p = points[v];
-  if(! result.centres.empty())
-    for(std::size_t k = 0; k < 2; ++k)
-      p[k] += NT(result.centres[v][k]);
-  return p;
 }
 
 // A vertex with this point, with as many digits as it takes to read it back; `i` is its number in the file read.
@@ -145,15 +137,17 @@ SVG_options hemisphere_options(SVG_options options, const Figures& figures)
 {
   options.checkerboard = options.seams = options.cones = false;
   for(const std::array<double, 2>& c : centres(figures))
-  {
-    options.circles.push_back({{ 2 * c[0], c[1], 1 }});
-    options.circles.push_back({{ 2 * c[0] + distance_of_hemispheres, c[1], 1 }});
-  }
+    for(const bool is_back : {false, true})
+    {
+      const double x = 2 * c[0] + (is_back ? distance_of_hemispheres : 0);
+      options.circles.push_back({{ x, c[1], 1 }});
+      options.hemispheres.push_back({ {{ x, c[1] }}, is_back });
+    }
   return options;
 }
 
 // What gives a triangle its colour in the drawing.
-Face_map<double> face_colors(const Options& options, const Result& result)
+Face_map<double> face_colors(const Options& options, const Result& result, Figures& figures)
 {
   Mesh& mesh = result.mesh;
   Face_map<double> value = mesh.add_property_map<Face, double>("f:color", 0.).first;
@@ -164,6 +158,10 @@ Face_map<double> face_colors(const Options& options, const Result& result)
       ? CE::quasi_conformal_factor(mesh, result.uv, f)
       : (result.u[mesh.target(h)] + result.u[mesh.source(h)] + result.u[mesh.target(mesh.next(h))]) / 3;
   }
+  std::vector<double> values;
+  for(Face f : mesh.faces())
+    values.push_back(value[f]);
+  figures.color_range = Robust_range(values);
   return value;
 }
 
@@ -184,19 +182,6 @@ HTML_options drawing_options(const Options& options, const Mesh& mesh, const Fig
     for(const std::array<double, 2>& c : centres(figures))
       drawing.svg.circles.push_back({{ c[0], c[1], 1 }});
   return drawing;
-}
-
-// The checkerboard of the material: about 20 squares along the layout.
-double texture_repetitions(const Result& result)
-{
-  Finite_range x, y;
-  for(Halfedge h : result.mesh.halfedges())
-  {
-    x.insert(result.uv[h].x());
-    y.insert(result.uv[h].y());
-  }
-  const double longest = (std::max)(x.upper - x.lower, y.upper - y.lower);
-  return longest > 0 && std::isfinite(longest) ? 0.5 / round_number_below(longest / 14) : 1;
 }
 
 // What fits across the seams of a layout of square tiles: a checkerboard of squares half as wide, one of them in the centre of each tile. That
@@ -222,10 +207,17 @@ UV_map page_layout(const Figures& figures, const Result& result)
   return uv;
 }
 
-// The material of a texture of squares, its squares half as wide as a tile and one of them in the centre of each, so that it fits across seams.
-void write_tile_material(std::ostream& out, const std::string& name, const std::string& texture)
+// The picture in a unit square of the layout. As it repeats from one to the next, squares of a checkerboard are at most half a unit wide; and
+// those of very small layouts are not as small as they could be, since the picture would be too large. Hexagons fit into the coordinates of their
+// lattice.
+Palette_image texture_of_OBJ(const Options& options, const Result& result)
 {
-  out << material_beginning(name) << "-o 0.25 0.25 -s 1 1 1 " << texture << '\n';
+  const double most_repetitions = 100;
+  const Pattern pattern = texture_pattern(options);
+  if(pattern == Pattern::HEXAGON_TILES && ! result.lattice_uv)
+    return texture_image(Pattern::CHECKERBOARD);
+  const double repetitions = (std::min)((std::max)(std::floor(texture_repetitions(result)), 1.), most_repetitions);
+  return texture_image(pattern, static_cast<std::uint32_t>(repetitions));
 }
 
 // The number of the component of each face of the file; faces that are in none, as they were dropped, follow the one before.
@@ -264,16 +256,8 @@ void write_obj(const Options& options, const Given_surface& given, const Mesh& m
   });
   if(beside.material.empty())
     return;
-  files.write(beside.material, [&](std::ostream& out)
-  {
-    if(options.seamless && has_squares(static_cast<int>(options.quanta_of_turn)))
-    {
-      write_tile_material(out, material.name, name_without_folder(beside.texture));
-      return out.good();
-    }
-    return write_MTL(out, material.name, name_without_folder(beside.texture), texture_repetitions(result));
-  });
-  files.write(beside.texture, [](std::ostream& out) { return write_checkerboard_PNG(out); });
+  files.write(beside.material, [&](std::ostream& out) { return write_MTL(out, material.name, name_without_folder(beside.texture)); });
+  files.write(beside.texture, [&](std::ostream& out) { return write_PNG(out, texture_of_OBJ(options, result)); });
 }
 
 // A material file is overwritten only if this program has written it.
@@ -312,16 +296,17 @@ Material_files::Material_files(const std::string& obj)
 
 void announce_outputs(const Options& options, const Material_files& beside, Output_files& files)
 {
-  const std::vector<std::string> outputs = { options.obj, options.obj.empty() ? "" : beside.material,
-                                             options.obj.empty() ? "" : beside.texture, options.svg, options.html, options.report };
-  for(const std::string& file : outputs)
+  std::vector<std::string> written = outputs(options);
+  if(! options.obj.empty())
+    written.insert(written.begin() + 1, {beside.material, beside.texture});
+  for(const std::string& file : written)
     for(const std::string& input : {options.input, options.cone_file, options.holonomy_file, options.angle_file, options.scale_file})
     {
       std::error_code ignored;
       if(! file.empty() && ! input.empty() && std::filesystem::equivalent(file, input, ignored))
         throw Usage_error("the output " + file + " would overwrite the input");
     }
-  for(const std::string& file : outputs)
+  for(const std::string& file : written)
     if(! file.empty())
       files.announce(file);
 }
@@ -340,16 +325,19 @@ void write_outputs(const Options& options, const Mesh& mesh, Result& result, con
   const bool has_faces_of_file = &result.mesh == &mesh && ! figures.given->is_mesh();
   if(! options.obj.empty())
     write_obj(options, *figures.given, mesh, result, figures, beside, files);
+  write_layout_files(options, *figures.given, result, files);
   if(! options.svg.empty() || ! options.html.empty())
   {
-    const Face_map<double> colors = face_colors(options, result);
+    const Face_map<double> colors = face_colors(options, result, figures);
     HTML_options drawing = drawing_options(options, mesh, figures);
     if(has_faces_of_file)
       for(Mesh::Edge_index e : mesh.edges())
         drawing.svg.hidden_edges.push_back(is_diagonal(*figures.given, mesh, e));
     const UV_map layout = options.target == Target::SPHERE ? hemispheres(result) : result.uv;
+    SVG_options picture = drawing.svg;
+    picture.millimetres = options.true_scale;
     if(! options.svg.empty())
-      files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, drawing.svg); });
+      files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, picture); });
     if(! options.html.empty())
       files.write(options.html, [&](std::ostream& out)
       {

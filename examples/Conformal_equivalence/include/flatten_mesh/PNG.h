@@ -95,23 +95,41 @@ inline void append_png_chunk(std::string& png, const char* type, const std::stri
   append_big_endian(png, crc32(png.data() + begin, png.data() + png.size()));
 }
 
+// How many bits a pixel takes.
+inline std::uint32_t bits_of_pixel(const Palette_image& image)
+{
+  return image.palette.size() <= 2 ? 1 : image.palette.size() <= 16 ? 4 : 8;
+}
+
+// A row of pixels in bytes, the first pixel in the highest bits.
+inline void append_png_row(std::string& rows, const Palette_image& image, std::size_t y)
+{
+  const std::uint32_t bits = bits_of_pixel(image), in_a_byte = 8 / bits;
+  rows += '\0'; // no filter
+  for(std::uint32_t x = 0; x < image.width; x += in_a_byte)
+  {
+    std::uint32_t byte = 0;
+    for(std::uint32_t i = 0; i < in_a_byte && x + i < image.width; ++i)
+      byte |= std::uint32_t(image.pixels[y * image.width + x + i]) << (8 - bits * (i + 1));
+    rows += static_cast<char>(byte);
+  }
+}
+
 // The file of the picture in the format PNG (ISO/IEC 15948).
 inline std::string png_file(const Palette_image& image)
 {
   std::string header, colors, opacities, rows;
   append_big_endian(header, image.width);
   append_big_endian(header, image.height);
-  header += std::string("\x08\x03\x00\x00\x00", 5); // 8 bits a pixel, with a palette
+  header += static_cast<char>(bits_of_pixel(image));
+  header += std::string("\x03\x00\x00\x00", 4); // with a palette
   for(const Palette_image::Color& c : image.palette)
   {
     colors.append(c.begin(), c.begin() + 3);
     opacities += static_cast<char>(c[3]);
   }
   for(std::size_t y = 0; y < image.height; ++y)
-  {
-    rows += '\0'; // no filter
-    rows.append(image.pixels.begin() + y * image.width, image.pixels.begin() + (y + 1) * image.width);
-  }
+    append_png_row(rows, image, y);
 
   std::string png = "\x89PNG\r\n\x1a\n";
   append_png_chunk(png, "IHDR", header);

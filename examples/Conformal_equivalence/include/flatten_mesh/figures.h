@@ -9,6 +9,7 @@
 #include "mesh.h"
 #include "options.h"
 #include "results.h"
+#include "Robust_range.h"
 #include "seamless.h"
 
 #include <CGAL/Conformal_equivalence/conformal_distortion.h>
@@ -17,6 +18,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -60,6 +62,8 @@ struct Figures
   std::vector<std::string> notices; // what is said beside the figures
 
   double reading_seconds = 0, placing_seconds = 0, verifying_seconds = 0, writing_seconds = 0;
+
+  std::optional<Robust_range> color_range; // of what gives triangles their colours, if there is a drawing
 };
 
 void find_range_of_u(const Result& result, Figures& figures);

@@ -29,6 +29,8 @@ struct Given_option
 struct Options
 {
   std::string input, obj, svg, html, report;          // of one input (several_inputs.h); before, names of outputs may have a % for it
+  std::string glb, ply, flat, dxf;
+  double true_scale = 0;                              // millimetres in a unit of the layout; 0: pictures have no size
   Target target = Target::PLANE;
   std::optional<std::size_t> vertex_at_infinity, disk_centre;
   std::optional<std::array<std::size_t, 3> > disk_points;
@@ -64,6 +66,9 @@ struct Options
   bool is_report_joint = false;                       // all inputs have one report
   std::vector<Given_option> given;
 };
+
+// The names of the files that will be written, some of them empty.
+std::vector<std::string> outputs(const Options& options);
 
 std::string help_text();
 
