@@ -110,7 +110,8 @@ export function middle_of(id)
 export async function marks(name)
 {
   await new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve)));
-  const page = flatten_mesh_page, mark = page[name], result = { face: mark ? mark.face : -1, reading: {}, is_shown: {} };
+  const page = flatten_mesh_page, mark = page[name], numbers = page.data.face_numbers;
+  const result = { face: mark ? mark.face : -1, number: mark && String(numbers.length ? numbers[mark.face] : mark.face), reading: {}, is_shown: {} };
   for(const item of document.querySelectorAll("#reading div"))
     result.reading[item.querySelector("dt").textContent] = item.querySelector("dd")?.textContent;
   for(const id of ["surface", "layout"])

@@ -19,17 +19,15 @@ export function make_reading(list)
 {
   const hint = () => {
     const div = document.createElement("div"), text = document.createElement("dt");
-    div.className = "wide";
-    text.textContent = "Point at the surface or the layout";
+    text.textContent = "Point at a picture";
     div.append(text);
     return div;
   };
   return {
     show(lines)
     {
-      list.replaceChildren(...(lines ? lines.map(([name, value, is_wide]) => {
+      list.replaceChildren(...(lines ? lines.map(([name, value]) => {
         const div = document.createElement("div"), dt = document.createElement("dt"), dd = document.createElement("dd");
-        div.className = is_wide ? "wide" : "";
         dt.textContent = name;
         dd.textContent = dd.title = value;
         div.append(dt, dd);
