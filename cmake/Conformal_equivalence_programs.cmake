@@ -216,6 +216,13 @@ if(TARGET flatten_mesh AND "test" IN_LIST _folders)
   endif()
 endif()
 
+# The page of --html in headless Chromium. Skipped where that or node is not there, which is seen when the test runs.
+if(TARGET flatten_mesh AND "test" IN_LIST _folders AND UNIX)
+  conformal_equivalence_test(flatten_mesh_page test
+                             "${PROJECT_SOURCE_DIR}/test/Conformal_equivalence/page/run" $<TARGET_FILE:flatten_mesh>)
+  set_tests_properties(flatten_mesh_page PROPERTIES TIMEOUT 600)
+endif()
+
 if(NOT EXISTS "${CGAL_DATA_DIR}/meshes")
   message(STATUS "Conformal_equivalence: no ${CGAL_DATA_DIR}/meshes (scripts/fetch_data): "
                  "what needs them is skipped")

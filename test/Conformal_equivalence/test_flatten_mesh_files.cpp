@@ -1645,29 +1645,59 @@ BOOST_AUTO_TEST_CASE(draw_layouts)
 BOOST_AUTO_TEST_CASE(write_page)
 {
   Two_triangles two;
-  auto value = two.mesh.add_property_map<flattening::Face, double>("f:value", 1.).first;
+  auto u = two.mesh.add_property_map<flattening::Vertex, double>("v:u", 1.).first;
   auto weights = two.mesh.add_property_map<flattening::Vertex, double>("v:w", 1.).first;
   flattening::HTML_options options;
   options.title = "<script>";
   options.figures = {{"a", "<b>"}};
   for(bool with_weights : {false, true})
   {
+    put(weights, *two.mesh.vertices().begin(), with_weights ? 0.5 : 1.);
     std::ostringstream out;
-    BOOST_TEST((with_weights ? flattening::write_HTML(out, two.mesh, two.uv, value, options, CGAL::parameters::projective_weight_map(weights))
-                             : flattening::write_HTML(out, two.mesh, two.uv, value, options)));
+    BOOST_TEST(flattening::write_HTML(out, two.mesh, two.uv, u, options, CGAL::parameters::projective_weight_map(weights)));
     const std::string page = out.str();
     BOOST_TEST(contains(page, "<title>&lt;script&gt;</title>"));
     BOOST_TEST(contains(page, "<td>a</td><td>&lt;b&gt;</td>"));
-    // six corners of three floats are 72 bytes, 96 digits; six indices of four bytes are 24 bytes, 32 digits
+    BOOST_TEST(contains(page, "Permission is hereby granted")); // the licence of the library within
+    // digits of base64, four for three bytes: six corners of three, two and one floats, six indices of four bytes, two codes of two bytes
     const auto digits = [&](const std::string& name)
     {
-      const std::size_t begin = page.find(name + " = bytes(\"") + name.size() + 10;
-      return page.find('"', begin) - begin;
+      const std::string beginning = "id=\"data-" + name + "\">";
+      const std::size_t begin = page.find(beginning) + beginning.size();
+      return page.find('<', begin) - begin;
     };
     BOOST_TEST(digits("points") == 96u);
-    BOOST_TEST(digits("texture") == 96u);
+    BOOST_TEST(digits("layout") == 64u);
+    BOOST_TEST(digits("u") == 32u);
+    BOOST_TEST(digits("weights") == (with_weights ? 32u : 0u)); // equal ones change nothing
     BOOST_TEST(digits("triangles") == 32u);
+    BOOST_TEST(digits("area-factors") == 8u);
+    BOOST_TEST(digits("quasi-conformal-factors") == 8u);
+    BOOST_TEST(digits("hidden-edges") == 0u);
   }
+
+  // numbers of any kind: no "nan" and no "inf" among the numbers of the page
+  two.uv[two.mesh.halfedge(flattening::Face(0))] = flattening::Kernel::Point_2(HUGE_VAL, 0);
+  put(u, *two.mesh.vertices().begin(), std::numeric_limits<double>::quiet_NaN());
+  std::ostringstream out;
+  BOOST_TEST(flattening::write_HTML(out, two.mesh, two.uv, u, options));
+  const std::string page = out.str(), numbers = page.substr(page.find("id=\"data-numbers\""));
+  BOOST_TEST(! contains(numbers.substr(0, numbers.find('\n')), "nan"));
+  BOOST_TEST(! contains(numbers.substr(0, numbers.find('\n')), "inf"));
+}
+
+// What pages have of factors: even steps of the logarithm, and codes for what is no number.
+BOOST_AUTO_TEST_CASE(coded_logarithms)
+{
+  flattening::Coded_logarithms coded;
+  const double infinity = std::numeric_limits<double>::infinity();
+  for(double x : { 1., 2., 4., 0., infinity, std::numeric_limits<double>::quiet_NaN() })
+    coded.push_back(x);
+  const std::vector<std::uint16_t> expected = { 1, 32768, 65534, 0, 65535, 0 };
+  BOOST_TEST(coded.codes() == expected, boost::test_tools::per_element());
+  BOOST_TEST(coded.range()[0] == 0);
+  BOOST_TEST(std::abs(coded.range()[1] - std::log(4.)) < 1e-15);
+  BOOST_TEST(flattening::Coded_logarithms().range()[1] == 0);
 }
 
 BOOST_AUTO_TEST_CASE(encodings)

@@ -14,7 +14,12 @@ function(flatten_mesh_add_library name)
     return()
   endif()
   file(GLOB sources CONFIGURE_DEPENDS "${flatten_mesh_folder}/*.cpp")
-  add_library(${name} STATIC ${sources})
+  # the page of --html, as a source
+  file(GLOB page_files CONFIGURE_DEPENDS "${flatten_mesh_folder}/page/*" "${flatten_mesh_folder}/page/three/three.js")
+  set(page_source "${CMAKE_CURRENT_BINARY_DIR}/${name}_page_template.cpp")
+  add_custom_command(OUTPUT "${page_source}" DEPENDS ${page_files} VERBATIM
+    COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${page_source}" -P "${flatten_mesh_folder}/page/embed_page.cmake")
+  add_library(${name} STATIC ${sources} "${page_source}")
   set_target_properties(${name} PROPERTIES UNITY_BUILD "${CONFORMAL_EQUIVALENCE_UNITE_PROGRAM}" UNITY_BUILD_BATCH_SIZE 9)
   target_compile_features(${name} PUBLIC cxx_std_17)
   target_compile_options(${name} PRIVATE ${ARGN})

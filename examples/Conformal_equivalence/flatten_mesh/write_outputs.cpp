@@ -165,46 +165,42 @@ Face_map<double> face_colors(const Options& options, const Result& result, Figur
   return value;
 }
 
-HTML_options drawing_options(const Options& options, const Mesh& mesh, const Figures& figures)
+SVG_options drawing_options(const Options& options, const Figures& figures)
 {
-  HTML_options drawing;
-  drawing.title = name_without_folder(options.input);
-  drawing.figures = summary(options, mesh, figures);
+  SVG_options drawing;
   if(options.seamless)
   {
-    drawing.svg.tiles = figures.report.tiling.symmetry;
-    drawing.svg.checkerboard = false;
+    drawing.tiles = figures.report.tiling.symmetry;
+    drawing.checkerboard = false;
   }
-  drawing.svg.legend = options.color_by_quasi_conformal_factor ? "quasi-conformal factor" : "u";
+  drawing.legend = options.color_by_quasi_conformal_factor ? "quasi-conformal factor" : "u";
   if(options.target == Target::SPHERE)
-    drawing.svg = hemisphere_options(drawing.svg, figures);
+    drawing = hemisphere_options(drawing, figures);
   else if(options.target == Target::DISK)
     for(const std::array<double, 2>& c : centres(figures))
-      drawing.svg.circles.push_back({{ c[0], c[1], 1 }});
+      drawing.circles.push_back({{ c[0], c[1], 1 }});
   return drawing;
 }
 
-// What fits across the seams of a layout of square tiles: a checkerboard of squares half as wide, one of them in the centre of each tile. That
-// of pages has a corner at the origin.
-HTML_options page_options(HTML_options drawing, const Figures& figures)
+// Faces are called as in the file; vertices, too, unless another mesh was made.
+HTML_options page_options(const Options& options, const Mesh& mesh, const Result& result, const Figures& figures, const SVG_options& drawing)
 {
-  if(has_squares(figures.report.tiling.symmetry))
-  {
-    drawing.svg.tiles = 0;
-    drawing.svg.checkerboard = true;
-    drawing.svg.square = .5;
-  }
-  return drawing;
-}
-
-UV_map page_layout(const Figures& figures, const Result& result)
-{
-  if(! has_squares(figures.report.tiling.symmetry))
-    return result.uv;
-  UV_map uv = result.mesh.add_property_map<Halfedge, Kernel::Point_2>("h:page_uv").first;
-  for(Halfedge h : result.mesh.halfedges())
-    uv[h] = Kernel::Point_2(result.uv[h].x() + .25, result.uv[h].y() + .25);
-  return uv;
+  HTML_options page;
+  page.title = name_without_folder(options.input);
+  page.figures = summary(options, mesh, figures);
+  page.symmetry = options.seamless ? figures.report.tiling.symmetry : 0;
+  page.mode = options.color_by_quasi_conformal_factor ? "quasi-conformal" : "pattern";
+  page.hidden_edges = drawing.hidden_edges;
+  page.circles = drawing.circles;
+  const bool is_made = &result.mesh != &mesh;
+  if(is_made || ! figures.given->is_mesh())
+    for(Face f : result.mesh.faces())
+      page.face_numbers.push_back(static_cast<std::uint32_t>(
+        figures.given->face(is_made ? Face(static_cast<Mesh::size_type>(result.given_face[f.idx()])) : f)));
+  if(! is_made && ! figures.given->is_mesh())
+    for(Vertex v : mesh.vertices())
+      page.vertex_numbers.push_back(static_cast<std::uint32_t>(figures.given->vertex(v)));
+  return page;
 }
 
 // The picture in a unit square of the layout. As it repeats from one to the next, squares of a checkerboard are at most half a unit wide; and
@@ -329,20 +325,19 @@ void write_outputs(const Options& options, const Mesh& mesh, Result& result, con
   if(! options.svg.empty() || ! options.html.empty())
   {
     const Face_map<double> colors = face_colors(options, result, figures);
-    HTML_options drawing = drawing_options(options, mesh, figures);
+    SVG_options drawing = drawing_options(options, figures);
     if(has_faces_of_file)
       for(Mesh::Edge_index e : mesh.edges())
-        drawing.svg.hidden_edges.push_back(is_diagonal(*figures.given, mesh, e));
+        drawing.hidden_edges.push_back(is_diagonal(*figures.given, mesh, e));
     const UV_map layout = options.target == Target::SPHERE ? hemispheres(result) : result.uv;
-    SVG_options picture = drawing.svg;
-    picture.millimetres = options.true_scale;
+    drawing.millimetres = options.true_scale;
     if(! options.svg.empty())
-      files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, picture); });
+      files.write(options.svg, [&](std::ostream& out) { return write_SVG(out, result.mesh, layout, colors, drawing); });
     if(! options.html.empty())
       files.write(options.html, [&](std::ostream& out)
       {
-        return write_HTML(out, result.mesh, page_layout(figures, result), colors, page_options(drawing, figures),
-                                  CGAL::parameters::projective_weight_map(result.weight));
+        return write_HTML(out, result.mesh, result.uv, result.u, page_options(options, mesh, result, figures, drawing),
+                          CGAL::parameters::projective_weight_map(result.weight));
       });
   }
   figures.writing_seconds = watch.seconds();
