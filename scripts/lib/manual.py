@@ -39,25 +39,46 @@ def plain(fragment):
 
 
 # ------------------------------------------------------------------- search ----
-# Doxygen's search knows names of the reference only. Here it also learns the headings of the manual, and every
-# name or word of a table or list that has an anchor of its own: named parameters, options, statuses, words.
+# Doxygen's search knows names of the reference only. Here it also learns the headings of the manual, the names and words
+# with which rows of tables and items of lists begin (named parameters, statuses, words), and the options of the program.
 
 def identifier(text):
     """As convertToId() of Doxygen's search.js."""
     return ''.join(c if re.match('[a-z0-9\u0080-\uffff]', c) else '_%02x' % ord(c) for c in text.lower())
 
 
+def with_anchors(text):
+    """The page with an anchor in every first cell of a table, and every item of a list, that begins with a name or a word."""
+    seen = set()
+
+    def insert(found):
+        begin, tag, words = found.groups()
+        anchor = 'name_' + re.sub(r'\W+', '_', plain(words))
+        if anchor in seen:
+            return found.group()
+        seen.add(anchor)
+        return '%s<a class="anchor" id="%s"></a><%s>%s</%s>' % (begin, anchor, tag, words, tag)
+    return re.sub(r'(<tr[^>]*>\s*<td[^>]*>|<li>)<(code|b)>(.*?)</\2>', insert, text)
+
+
 def anchored(folder):
-    """(words, page, anchor, title of the page) of all headings and of all names with an anchor before them."""
+    """(words, page, anchor, title of the page) of all headings, names and words with an anchor before them, and of options."""
     anchor = r'<a class="anchor" id="([^"]+)"></a>\s*'
     for page in pages(folder):
-        text = read(os.path.join(folder, page))
+        path, text = os.path.join(folder, page), read(os.path.join(folder, page))
         title = plain(re.search(r'<title>(.*?)</title>', text, re.S).group(1)).split(': ', 1)[-1]
+        if re.match(r'index|ConformalEquivalence|group__PkgConformalEquivalenceNamedParameters', page):
+            text = with_anchors(text)
+            write(path, text)
+            for name, words in re.findall(anchor + r'<(?:code|b)>(.*?)</(?:code|b)>', text, re.S):
+                for part in plain(words).split(', '):
+                    yield part, page, name, title
         for level, name, words in re.findall(r'<h([1-4])[^>]*>' + anchor + r'(.*?)</h\1>', text, re.S):
             yield plain(words), page, name, title
-        for name, tag, words in re.findall(anchor + r'<(code|b)>(.*?)</\2>', text, re.S):
-            if not name.startswith(('bib_', 'fig__')):
-                yield plain(words), page, name, title
+            body = text[text.index('id="%s"' % name):]
+            body = body[:body.find('<h%s' % level, 10)]
+            for option in sorted(set(re.findall(r'(?<=\s)--[a-z][a-z-]+', '\n'.join(re.findall(r'<pre.*?</pre>', body, re.S))))):
+                yield option, page, name, title
 
 
 def entries_of(words, page, anchor, title):
