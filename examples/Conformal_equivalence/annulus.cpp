@@ -111,6 +111,7 @@ int main(int argc, char* argv[])
   Seam_edge_map seam = sm.add_property_map<edge_descriptor, bool>("e:is_seam", false).first;
   Seam_vertex_map on_seam = sm.add_property_map<vertex_descriptor, bool>("v:is_on_seam", false).first;
 
+  //! [part]
   // The annulus itself: both borders keep their lengths. The cut is there to lay it out, and changes nothing.
   const auto report = CE::flatten(sm, uv, params::log_scale_factor_map(u).edge_is_seam_map(seam));
   if(!report)
@@ -137,6 +138,7 @@ int main(int argc, char* argv[])
     std::cerr << CE::message(report_of_disk) << std::endl;
     return EXIT_FAILURE;
   }
+  //! [part]
   // parameterize() writes a point for each vertex of the seam mesh; all halfedges to it shall have it.
   for(auto hd : halfedges(seam_mesh))
     if(!is_border(hd, seam_mesh))

@@ -49,6 +49,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // Faces of the same number that hang together are a chart, with a border of its own, which keeps its lengths.
   auto patch = sm.add_property_map<face_descriptor, int>("f:patch").first;
   for(face_descriptor f : faces(sm))
@@ -58,6 +59,7 @@ int main(int argc, char* argv[])
   auto seam = sm.add_property_map<edge_descriptor, bool>("e:is_seam", false).first;
   const auto report = CE::flatten(sm, uv, params::edge_is_seam_map(seam).face_patch_map(patch)
                                                  .layout_frame(CE::Layout_frame::UNIT_SQUARE));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

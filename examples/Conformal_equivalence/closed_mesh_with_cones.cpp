@@ -50,6 +50,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   auto uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   auto angle = sm.add_property_map<vertex_descriptor, double>("v:cone_angle", 2 * CGAL_PI).first;
   auto seam = sm.add_property_map<edge_descriptor, bool>("e:is_seam", false).first;
@@ -60,6 +61,7 @@ int main(int argc, char* argv[])
   for(vertex_descriptor v : four_cones)
     angle[v] = CGAL_PI;
   const auto report = CE::flatten(sm, uv, params::cone_angle_map(angle).edge_is_seam_map(seam));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

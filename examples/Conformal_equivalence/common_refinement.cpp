@@ -44,6 +44,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // The metric that keeps the lengths of the border. On the given triangulation it would violate triangle inequalities.
   std::vector<std::uint32_t> missing;
   const auto conditions = CE::read_conditions(mesh, missing);
@@ -68,6 +69,7 @@ int main(int argc, char* argv[])
   auto weight = refined.add_property_map<vertex_descriptor, double>("v:weight", 1).first;
   const auto elements = CE::make_refined_mesh(mesh, CE::triangulate_refinement(refinement), refined, uv,
                                               params::default_values(), params::projective_weight_map(weight));
+  //! [part]
   std::cout << "the refined mesh has " << num_faces(refined) << " triangles, the mesh " << num_faces(sm) << std::endl;
   if(elements.faces.empty() || !refinement.is_positive())
     return EXIT_FAILURE;

@@ -63,11 +63,13 @@ bool measure(const std::string& name, const Mesh& mesh, const Parameterizer& par
     return false;
   }
 
+  //! [part]
   auto corner = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   for(halfedge_descriptor h : halfedges(sm))
     corner[h] = uv[target(h, sm)];
   const auto distortion = CE::compute_conformal_distortion(sm, corner);
   const auto verdict = CE::verify_layout(sm, corner);
+  //! [part]
   std::cout << std::left << std::setw(24) << name << std::right
             << std::setw(12) << distortion.mean_quasi_conformal_factor
             << std::setw(12) << distortion.maximum_quasi_conformal_factor

@@ -87,8 +87,10 @@ int main(int argc, char* argv[])
   std::cout << "flow: curvature " << size(v) << " at time " << time << ", after "
             << number_of_steps << " steps" << std::endl;
 
+  //! [part]
   // Newton's method on the energy of which the flow is the gradient flow.
   const auto metric = CE::compute_conformal_metric(t, CE::Conformal_conditions<double>(t));
+  //! [part]
   if(!metric)
   {
     std::cerr << CE::message(metric.status) << std::endl;

@@ -42,12 +42,14 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // Where edges had to be flipped, the refined mesh has vertices where edges cross; otherwise it is a copy.
   Mesh refined;
   auto uv = refined.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   auto weight = refined.add_property_map<vertex_descriptor, double>("v:weight", 1).first;
   const auto report = CE::map_to_disk_refined(sm, refined, uv, params::disk_frame(CE::Centred_disk_frame<vertex_descriptor>{centre}),
                                               params::projective_weight_map(weight));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

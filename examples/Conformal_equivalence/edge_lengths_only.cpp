@@ -70,6 +70,7 @@ int main(int argc, char* argv[])
   std::vector<Disk_point> place;
   Mesh sm = make_disk(number_of_rings, place);
 
+  //! [part]
   // Triangles of the hyperbolic plane, as far as Euclid's triangles with the same sides go.
   auto length = sm.add_property_map<edge_descriptor, double>("e:length").first;
   for(edge_descriptor e : edges(sm))
@@ -81,6 +82,7 @@ int main(int argc, char* argv[])
   const auto report = CE::flatten(sm, uv, params::edge_length_map(length)
                                                  .log_scale_factor_map(u)
                                                  .scaled_edge_length_map(flat_length));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

@@ -66,6 +66,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // The total curvature of a closed surface of genus g is 4 pi (1 - g): 4 (g - 1) cones of 3 pi take it, each -pi.
   const int genus = int(report_of_mesh.topology.genus);
   Angle_map angle = sm.add_property_map<vertex_descriptor, double>("v:cone_angle", 2 * CGAL_PI).first;
@@ -75,6 +76,7 @@ int main(int argc, char* argv[])
   auto uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   auto u = sm.add_property_map<vertex_descriptor, double>("v:log_scale_factor").first;
   const auto report = CE::flatten(sm, uv, params::cone_angle_map(angle).log_scale_factor_map(u));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

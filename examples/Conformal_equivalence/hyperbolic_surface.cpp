@@ -28,6 +28,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // The metric of curvature -1, the layout in the unit disk, and the group.
   const CE::Hyperbolic_uniformization u = CE::uniformize_hyperbolic(sm);
   if(!u || !u.is_laid_out())
@@ -58,5 +59,6 @@ int main(int argc, char* argv[])
   std::cout << "as a triangulation of CGAL it is " << (triangulation.is_valid() ? "valid" : "not valid")
             << (triangulation.is_Delaunay() ? " and Delaunay" : "") << std::endl;
 #endif
+  //! [part]
   return EXIT_SUCCESS;
 }

@@ -28,10 +28,12 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // Where the metric of the given triangulation breaks triangles, a copy of the mesh is changed.
   Mesh repaired;
   auto uv = repaired.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   const auto report = CE::flatten_repaired(sm, repaired, uv);
+  //! [part]
   if(!report)
   {
     std::cerr << "Not flattened: " << CE::message(report) << std::endl;

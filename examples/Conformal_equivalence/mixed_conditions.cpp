@@ -56,6 +56,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // At each vertex of the border either u is fixed, to 0 (lengths are kept) if nothing else
   // is said, or the angle is.
   Vertex_number_map angle = sm.add_property_map<vertex_descriptor, double>("v:border_angle", 0).first;
@@ -79,6 +80,7 @@ int main(int argc, char* argv[])
                                                  .prescribed_log_scale_factor_map(fixed_u)
                                                  .log_scale_factor_map(u)
                                                  .vertex_is_constrained_map(is_fixed));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

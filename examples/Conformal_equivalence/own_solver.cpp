@@ -26,6 +26,7 @@ namespace CE = CGAL::Conformal_equivalence;
 namespace PMP = CGAL::Polygon_mesh_processing;
 namespace params = CGAL::parameters;
 
+//! [part]
 // A model of SparseLinearAlgebraWithFactorTraits_d of our own: one of CGAL's, which says
 // what it is asked for.
 typedef CGAL::Eigen_sparse_matrix<double>::EigenType         Eigen_matrix;
@@ -62,6 +63,7 @@ SMP::Error_code flatten(Mesh& sm, Progress_visitor& visitor)
   CE::Flattening_report<Mesh> report;
   SMP::Conformal_equivalence_parameterizer_3<Mesh, Talkative_solver> parameterizer(
     params::flattening_report(std::ref(report)).visitor(std::ref(visitor)));
+  //! [part]
   const SMP::Error_code e = SMP::parameterize(sm, parameterizer, bhd, uv);
   std::cout << CE::message(report) << std::endl;
   return e;

@@ -32,7 +32,7 @@ int main(int argc, char* argv[])
     std::cerr << "Invalid input: " << filename << std::endl;
     return EXIT_FAILURE;
   }
-
+  //! [part]
   auto uv = sm.add_property_map<halfedge_descriptor, Kernel::Point_2>("h:uv").first;
   auto angle = sm.add_property_map<vertex_descriptor, double>("v:cone_angle").first;
   auto u = sm.add_property_map<vertex_descriptor, double>("v:u").first;
@@ -47,9 +47,12 @@ int main(int argc, char* argv[])
   }
   for(const auto& cone : placement.cones)
     std::cout << "cone at vertex " << cone.vertex_index << ", angle " << cone.angle * 180 / CGAL_PI << " degrees" << std::endl;
+  //! [part]
 
+  //! [flatten]
   // The mesh with these cones, laid out.
   const auto report = CE::flatten(sm, uv, params::cone_angle_map(angle).log_scale_factor_map(u));
+  //! [flatten]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

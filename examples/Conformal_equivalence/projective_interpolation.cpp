@@ -44,6 +44,7 @@ int main(int argc, char* argv[])
     std::cerr << "Invalid input: " << filename << std::endl;
     return EXIT_FAILURE;
   }
+  //! [part]
   auto uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   auto w = sm.add_property_map<vertex_descriptor, double>("v:projective_weight", 1).first;
   const auto report = CE::flatten(sm, uv, params::projective_weight_map(w));
@@ -59,6 +60,7 @@ int main(int argc, char* argv[])
   const Point_2 linear = CE::linear_map(sm, uv, f, bary);
   const Point_2 projective = CE::projective_map(sm, uv, w, f, bary);
   std::cout << "linear map to     " << linear << "\nprojective map to " << projective << std::endl;
+  //! [part]
   for(const Barycentric_coordinates& b : { CE::inverse_linear_map(sm, uv, f, linear),
                                            CE::inverse_projective_map(sm, uv, w, f, projective) })
     std::cout << "and back to       " << b[0] << " " << b[1] << " " << b[2] << std::endl;

@@ -37,6 +37,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   auto uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   auto angle = sm.add_property_map<vertex_descriptor, double>("v:border_angle", 0).first;
 
@@ -44,6 +45,7 @@ int main(int argc, char* argv[])
   const auto corners = CE::select_rectangle_corners(sm, bhd);
   CE::prescribe_rectangle(sm, corners, angle);
   const auto report = CE::flatten(sm, uv, params::border_angle_map(angle));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

@@ -39,6 +39,7 @@ int main(int argc, char* argv[])
     for(vertex_descriptor v : vertices(sm))
       is_cone[v] = sm.is_border(v); // a natural border
 
+  //! [part]
   // Edges are flipped if there is no such metric on the given triangulation. The new mesh has the vertices of the
   // given one, and those where edges of both triangulations cross.
   Mesh refined;
@@ -46,6 +47,7 @@ int main(int argc, char* argv[])
   auto weight = refined.add_property_map<vertex_descriptor, double>("v:weight", 1).first;
   const auto report = CE::flatten_refined(sm, refined, uv, params::vertex_is_constrained_map(is_cone),
                                           params::projective_weight_map(weight));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

@@ -36,7 +36,7 @@ int main()
     Point_3(0, 2, 1), Point_3(4, 2, 1), Point_3(4, 2, 3), Point_3(0, 2, 3),
     Point_3(4, 0, 0), Point_3(4, 4, 0), Point_3(4, 2, 1) };
   std::vector<Polygon> polygons = { {0, 1, 2, 3}, {6, 7, 4, 5}, {8, 9, 10, 11}, {1, 0, 3, 2}, {2, 14, 7}, {12, 14, 13} };
-
+  //! [part]
   // Equal points become one, faces with fewer than three different points are dropped, and all but one of equal faces.
   PMP::repair_polygon_soup(points, polygons);
   std::cout << points.size() << " points and " << polygons.size() << " faces are left" << std::endl;
@@ -55,7 +55,9 @@ int main()
     std::cerr << "A face has no normal." << std::endl;
     return EXIT_FAILURE;
   }
+  //! [part]
 
+  //! [flatten]
   auto uv = mesh.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   const auto report = CE::flatten(mesh, uv);
   if(!report)
@@ -66,4 +68,5 @@ int main()
   std::cout << num_faces(mesh) << " triangles of " << report.topology.number_of_components << " pieces are flat" << std::endl;
 
   return CE::IO::write_OBJ("repair_and_flatten.obj", mesh, uv) ? EXIT_SUCCESS : EXIT_FAILURE;
+  //! [flatten]
 }

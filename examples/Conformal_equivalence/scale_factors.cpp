@@ -40,6 +40,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   auto uv = sm.add_property_map<vertex_descriptor, Point_2>("v:uv").first;
   auto u = sm.add_property_map<vertex_descriptor, double>("v:log_scale_factor").first;
   auto w = sm.add_property_map<vertex_descriptor, double>("v:projective_weight").first;
@@ -53,6 +54,7 @@ int main(int argc, char* argv[])
     std::cerr << CE::message(report) << std::endl;
     return EXIT_FAILURE;
   }
+  //! [part]
 
   const auto u_range = std::minmax_element(u.begin(), u.end());
   std::cout << report.statistics.number_of_iterations << " Newton steps, residual "

@@ -75,6 +75,7 @@ int main(int argc, char* argv[])
   for(vertex_descriptor v : cones)
     angle[v] = 2 * CGAL_PI - 4 * CGAL_PI / cones.size();
 
+  //! [part]
   // The maps of the parameterizer, and its report, are those of the mesh that is cut; the layout is that of the Seam_mesh.
   CE::Flattening_report<Mesh> report;
   SMP::Conformal_equivalence_parameterizer_3<Seam_mesh>
@@ -86,6 +87,7 @@ int main(int argc, char* argv[])
     std::cerr << CE::message(report) << std::endl;
     return EXIT_FAILURE;
   }
+  //! [part]
 
   std::ofstream out("seam_mesh.off");
   SMP::IO::output_uvmap_to_off(seam_mesh, bhd, uv, out);

@@ -63,9 +63,11 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // Eight cones, with multiples of a right angle, and about 500 squares.
   auto uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   const auto report = CE::compute_seamless_parameterization(sm, uv, params::number_of_cones(8).number_of_tiles(500));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

@@ -92,6 +92,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // Two cones of pi: turned and scaled so that they lie on the lattice, the layout stays conformally equivalent.
   if(!make_seamless(sheet, "seamless_sheet", params::number_of_cones(2).angle_quantum(CGAL_PI).number_of_tiles(200)))
     return EXIT_FAILURE;
@@ -107,5 +108,6 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   if(!make_seamless(lion, "seamless_lion", params::number_of_cones(5).angle_quantum(right_angle).maximum_distortion(1.01)))
     return EXIT_FAILURE;
+  //! [part]
   return EXIT_SUCCESS;
 }

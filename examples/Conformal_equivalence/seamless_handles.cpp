@@ -31,6 +31,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // Sixteen cones, with multiples of a right angle; all loops around the handles turn by such multiples, too.
   auto uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   const auto np = params::number_of_cones(16).maximum_distortion(1.05);
@@ -42,6 +43,7 @@ int main(int argc, char* argv[])
   const bool is_refined = report.status == CE::Status::NOT_INJECTIVE;
   if(is_refined)
     report = CE::compute_refined_seamless_parameterization(sm, refined, refined_uv, np);
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

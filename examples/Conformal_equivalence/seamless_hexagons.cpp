@@ -76,10 +76,12 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // Six cones, with multiples of 60 degrees, and about 150 hexagons.
   UV_map uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   const auto report = CE::compute_seamless_parameterization(sm, uv, params::number_of_cones(6).angle_quantum(CGAL_PI / 3).number_of_tiles(150)
                                                                           .seamless_coordinates(CE::Seamless_coordinates::LATTICE));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

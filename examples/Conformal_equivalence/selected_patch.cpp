@@ -40,6 +40,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // Some rings of triangles around the first one, on a closed mesh.
   auto is_selected = sm.add_property_map<face_descriptor, bool>("f:is_selected", false).first;
   std::vector<face_descriptor> selection(1, *faces(sm).begin());
@@ -52,6 +53,7 @@ int main(int argc, char* argv[])
   auto uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   auto u = sm.add_property_map<vertex_descriptor, double>("v:log_scale_factor", 0).first;
   const auto report = CE::flatten(patch, uv, params::log_scale_factor_map(u));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

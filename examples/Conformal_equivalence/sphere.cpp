@@ -28,12 +28,14 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // A closed surface without handles, as the unit sphere. Where edges have to be flipped on the way, the triangles between the
   // points of the sphere may be flipped: the map is then that of the refined mesh, which has the vertices of the given one, and
   // those where edges cross.
   Mesh refined;
   auto sphere = refined.add_property_map<vertex_descriptor, Point_3>("v:sphere").first;
   const auto report = CE::map_to_sphere_refined(sm, refined, sphere, params::moebius_weights(CE::Moebius_weights::VERTICES));
+  //! [part]
   if(!report)
   {
     std::cerr << CE::message(report) << std::endl;

@@ -89,7 +89,9 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
+  //! [part]
   // Closed surfaces meet on the sphere, turned as they stand; disks on the disk, with their first border vertices at the same
   // point. Landmarks would say which points correspond: CE::Three_landmarks.
   return CGAL::is_closed(a) ? carry(a, b, CE::make_sphere_correspondence(a, b)) : carry(a, b, CE::make_disk_correspondence(a, b));
+  //! [part]
 }

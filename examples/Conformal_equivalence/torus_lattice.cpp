@@ -50,6 +50,7 @@ double rounded(double x) { return std::round(1e6 * x) / 1e6 + 0.; } // no negati
 // Closed surfaces of genus 1 need no cones: they become flat, and their layouts tile the plane.
 bool print_lattices(Mesh& sm)
 {
+  //! [part]
   auto uv = sm.add_property_map<halfedge_descriptor, Point_2>("h:uv").first;
   const auto report = CE::flatten(sm, uv);
   if(!report)
@@ -61,6 +62,7 @@ bool print_lattices(Mesh& sm)
     std::cout << num_faces(sm) << " triangles: periods (" << lattice.periods[0][0] << ", " << lattice.periods[0][1] << ") and ("
               << lattice.periods[1][0] << ", " << lattice.periods[1][1] << "), tau = "
               << rounded(lattice.tau[0]) << " + " << lattice.tau[1] << " i" << std::endl;
+  //! [part]
   return true;
 }
 

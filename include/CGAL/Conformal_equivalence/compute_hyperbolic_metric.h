@@ -43,8 +43,9 @@ namespace Conformal_equivalence {
 /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
 ///
 /// \cgalNamedParamsBegin
-///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, visitor} \cgalParamDescription{as in `Conformal_metric_solver::solve()`}
-///   \cgalParamNEnd
+///   \cgalParamNBegin{gradient_tolerance} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_iterations} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{visitor} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
 ///   \cgalParamNBegin{initial_log_scale_factor_map} \cgalParamDescription{as in `Conformal_metric_solver::solve()`}
 ///     \cgalParamDefault{constant where u is not fixed: such that the Euclidean area is about the hyperbolic one} \cgalParamNEnd
 ///   \cgalParamNBegin{retriangulation}

@@ -100,17 +100,21 @@ struct Loop_turning
 /// \param np an optional sequence of \ref bgl_namedparameters "Named Parameters" among the ones listed below
 ///
 /// \cgalNamedParamsBegin
-///   \cgalParamNBegin{number_of_cones, maximum_log_scale_factor, maximum_area_distortion, cone_measure, number_of_sweeps}
-///     \cgalParamDescription{as in `place_cones()`. If none of the first three is given, the cones are those of `cone_angle_map`}
-///   \cgalParamNEnd
+///   \cgalParamNBegin{number_of_cones} \cgalParamDescription{as in `place_cones()`. If neither this nor a bound is given, the cones are those of `cone_angle_map`} \cgalParamNEnd
+///   \cgalParamNBegin{maximum_log_scale_factor} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
+///   \cgalParamNBegin{maximum_area_distortion} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
+///   \cgalParamNBegin{maximum_root_mean_square} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
+///   \cgalParamNBegin{cone_angles} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
+///   \cgalParamNBegin{cone_measure} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_sweeps} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
 ///   \cgalParamNBegin{cone_angle_map}
 ///     \cgalParamDescription{the angle sums of the inner vertices, if cones are not to place themselves: multiples of the quantum}
 ///     \cgalParamType{as in `read_conditions()`}
 ///     \cgalParamDefault{no cones, unless they place themselves}
 ///   \cgalParamNEnd
-///   \cgalParamNBegin{border_angle_map, vertex_is_constrained_map, prescribed_log_scale_factor_map}
-///     \cgalParamDescription{as in `read_conditions()`. With border angles cones do not place themselves}
-///   \cgalParamNEnd
+///   \cgalParamNBegin{border_angle_map} \cgalParamDescription{as in `read_conditions()`. With border angles cones do not place themselves} \cgalParamNEnd
+///   \cgalParamNBegin{vertex_is_constrained_map} \cgalParamDescription{as in `read_conditions()`. With border angles cones do not place themselves} \cgalParamNEnd
+///   \cgalParamNBegin{prescribed_log_scale_factor_map} \cgalParamDescription{as in `read_conditions()`. With border angles cones do not place themselves} \cgalParamNEnd
 ///   \cgalParamNBegin{angle_quantum}
 ///     \cgalParamDescription{2 pi / n (radians), n = 2, 3, 4 or 6}
 ///     \cgalParamType{`double`}
@@ -136,15 +140,22 @@ struct Loop_turning
 ///     \cgalParamType{`Seamless_coordinates`}
 ///     \cgalParamDefault{`Seamless_coordinates::CARTESIAN`}
 ///   \cgalParamNEnd
-///   \cgalParamNBegin{vertex_point_map, edge_length_map, mollification, edge_is_seam_map, edge_is_constrained_map, seam_weight_map}
-///     \cgalParamDescription{as in `flatten()`}
-///   \cgalParamNEnd
-///   \cgalParamNBegin{log_scale_factor_map, scaled_edge_length_map}
-///     \cgalParamDescription{as in `flatten()`: of the flat metric before cones are moved; where handles were turned, the factors that come nearest to it}
-///   \cgalParamNEnd
-///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, number_of_threads, newton_strategy, retriangulation, border_edges, sparse_linear_solver, visitor}
-///     \cgalParamDescription{as in `flatten()`}
-///   \cgalParamNEnd
+///   \cgalParamNBegin{vertex_point_map} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{edge_length_map} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{mollification} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{edge_is_seam_map} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{edge_is_constrained_map} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{seam_weight_map} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{log_scale_factor_map} \cgalParamDescription{as in `flatten()`: of the flat metric before cones are moved; where handles were turned, the factors that come nearest to it} \cgalParamNEnd
+///   \cgalParamNBegin{scaled_edge_length_map} \cgalParamDescription{as in `flatten()`: of the flat metric before cones are moved; where handles were turned, the factors that come nearest to it} \cgalParamNEnd
+///   \cgalParamNBegin{gradient_tolerance} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_iterations} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_threads} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{newton_strategy} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{retriangulation} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{border_edges} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{sparse_linear_solver} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
+///   \cgalParamNBegin{visitor} \cgalParamDescription{as in `flatten()`} \cgalParamNEnd
 ///   \cgalParamNBegin{flattening_report}
 ///     \cgalParamDescription{receives a copy of what is returned}
 ///     \cgalParamType{`std::reference_wrapper<Flattening_report<TriangleMesh> >`}

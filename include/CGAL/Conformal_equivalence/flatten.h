@@ -124,8 +124,13 @@ namespace Conformal_equivalence {
 ///     \cgalParamType{`Layout_frame`, or `Pinned_frame<vertex_descriptor>`}
 ///     \cgalParamDefault{`Layout_frame::CANONICAL`}
 ///   \cgalParamNEnd
-///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, number_of_threads, newton_strategy, retriangulation, border_edges, visitor}
-///     \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{gradient_tolerance} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_iterations} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_threads} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{newton_strategy} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{retriangulation} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{border_edges} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{visitor} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
 ///   \cgalParamNBegin{sparse_linear_solver} \cgalParamDescription{as in `compute_conformal_metric()`} \cgalParamNEnd
 ///   \cgalParamNBegin{common_refinement}
 ///     \cgalParamDescription{if edges were flipped, receives the overlay of the mesh with the triangulation of the metric, see `compute_common_refinement()`; otherwise one without faces. Straight triangles that are flipped are then not refused, but listed in the report (`bent_faces`)}

@@ -84,8 +84,12 @@ namespace Conformal_equivalence {
 ///     \cgalParamType{`std::reference_wrapper<Spherical_refinement<NT> >`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
-///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, number_of_threads, newton_strategy, retriangulation, visitor}
-///     \cgalParamDescription{as in `Conformal_metric_solver::solve()`; the solution is refined as far as the number type allows} \cgalParamNEnd
+///   \cgalParamNBegin{gradient_tolerance} \cgalParamDescription{as in `Conformal_metric_solver::solve()`; the solution is refined as far as the number type allows} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_iterations} \cgalParamDescription{as in `Conformal_metric_solver::solve()`; the solution is refined as far as the number type allows} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_threads} \cgalParamDescription{as in `Conformal_metric_solver::solve()`; the solution is refined as far as the number type allows} \cgalParamNEnd
+///   \cgalParamNBegin{newton_strategy} \cgalParamDescription{as in `Conformal_metric_solver::solve()`; the solution is refined as far as the number type allows} \cgalParamNEnd
+///   \cgalParamNBegin{retriangulation} \cgalParamDescription{as in `Conformal_metric_solver::solve()`; the solution is refined as far as the number type allows} \cgalParamNEnd
+///   \cgalParamNBegin{visitor} \cgalParamDescription{as in `Conformal_metric_solver::solve()`; the solution is refined as far as the number type allows} \cgalParamNEnd
 ///   \cgalParamNBegin{sparse_linear_solver} \cgalParamDescription{as in `compute_conformal_metric()`} \cgalParamNEnd
 ///   \cgalParamNBegin{flattening_report}
 ///     \cgalParamDescription{receives a copy of what is returned}

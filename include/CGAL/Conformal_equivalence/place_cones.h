@@ -212,8 +212,13 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///     \cgalParamType{a writable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type `double`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
-///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, number_of_threads, newton_strategy, retriangulation, border_edges, visitor}
-///     \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{gradient_tolerance} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_iterations} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_threads} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{newton_strategy} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{retriangulation} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{border_edges} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
+///   \cgalParamNBegin{visitor} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
 ///   \cgalParamNBegin{sparse_linear_solver} \cgalParamDescription{as in `compute_conformal_metric()`} \cgalParamNEnd
 ///   \cgalParamNBegin{flattening_report}
 ///     \cgalParamDescription{receives a copy of what is returned}

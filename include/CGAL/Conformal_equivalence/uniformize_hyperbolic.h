@@ -81,8 +81,12 @@ Conformal_conditions<double> read_hyperbolic_conditions(const Imported_mesh<Tria
 ///   \cgalParamNBegin{border_angle_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamDefault{pi: borders are geodesics} \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_is_constrained_map} \cgalParamDescription{as in `read_conditions()`} \cgalParamNEnd
 ///   \cgalParamNBegin{prescribed_log_scale_factor_map} \cgalParamDescription{as in `read_conditions()`: sinh(l/2) becomes e^{(u_i + u_j) / 2} times half the length given} \cgalParamNEnd
-///   \cgalParamNBegin{gradient_tolerance, number_of_iterations, retriangulation, initial_log_scale_factor_map, sparse_linear_solver, visitor}
-///     \cgalParamDescription{as in `compute_hyperbolic_metric()`} \cgalParamNEnd
+///   \cgalParamNBegin{gradient_tolerance} \cgalParamDescription{as in `compute_hyperbolic_metric()`} \cgalParamNEnd
+///   \cgalParamNBegin{number_of_iterations} \cgalParamDescription{as in `compute_hyperbolic_metric()`} \cgalParamNEnd
+///   \cgalParamNBegin{retriangulation} \cgalParamDescription{as in `compute_hyperbolic_metric()`} \cgalParamNEnd
+///   \cgalParamNBegin{initial_log_scale_factor_map} \cgalParamDescription{as in `compute_hyperbolic_metric()`} \cgalParamNEnd
+///   \cgalParamNBegin{sparse_linear_solver} \cgalParamDescription{as in `compute_hyperbolic_metric()`} \cgalParamNEnd
+///   \cgalParamNBegin{visitor} \cgalParamDescription{as in `compute_hyperbolic_metric()`} \cgalParamNEnd
 ///   \cgalParamNBegin{log_scale_factor_map}
 ///     \cgalParamDescription{receives u, if there is a metric}
 ///     \cgalParamType{a writable property map with key type `boost::graph_traits<TriangleMesh>::%vertex_descriptor` and value type `double`}
