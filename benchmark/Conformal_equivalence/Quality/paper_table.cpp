@@ -8,6 +8,8 @@
 //                               only the row of the seamless map: 4 cones for a disk and 8 for a sphere, unless others are given
 //   paper_table --place N [CONES]
 //                               the time to place cones, 8 of them, on a terrain of N vertices, and that of one plain solve
+//   paper_table --cones MESH...  what 4, 8 and 16 cones leave of u, and how long it takes to place them: with u = 0 at the cones, as in the paper, and with
+//                               angles that are chosen with the places, for the largest |u| and for the root mean square of u
 //   paper_table --header        the head of the table of rows
 //
 // MESH is the name of a file or a specification of benchmark_meshes.h. Ends with status 2, without a row, if it cannot be read as a
@@ -569,6 +571,46 @@ void time_placing(std::size_t number_of_vertices, std::size_t n)
   }
 }
 
+// Time, largest |u|, root mean square of u of one way to place cones.
+void add_cells(const CE::Cone_placement<double>& p, double seconds, Cells& row)
+{
+  const bool has_metric = CE::is_success(p.metric.status) && CE::is_success(p.status);
+  row.push_back(seconds_text(seconds));
+  row.push_back(has_metric ? to_text(p.maximum_log_scale_factor, 4) : message(p.status));
+  row.push_back(has_metric ? to_text(p.root_mean_square, 4) : "");
+}
+
+// One after the other, so that all meet the same state of the machine.
+void compare_angles(const Cells& meshes)
+{
+  print_head({ "mesh", "vertices", "cones", "u = 0: seconds", "max &#124;u&#124;", "rms", "chosen: seconds", "max &#124;u&#124;", "rms",
+               "for the rms: seconds", "max &#124;u&#124;", "rms", "chosen / u = 0: seconds", "max &#124;u&#124;" });
+  for(const std::string& name : meshes)
+  {
+    const Mesh mesh = make_mesh(name);
+    const auto imported = CE::import_mesh(mesh);
+    for(const std::size_t n : { 4, 8, 16 })
+    {
+      Cells row = { name_of(name), std::to_string(num_vertices(mesh)), std::to_string(n) };
+      std::array<double, 3> seconds;
+      std::array<double, 3> largest;
+      for(std::size_t i = 0; i < 3; ++i)
+      {
+        const Processor_stopwatch stopwatch;
+        const auto placement = CE::place_cones(imported.triangulation, params::number_of_cones(n)
+          .cone_angles(i == 0 ? CE::Cone_angles::ZERO_U : CE::Cone_angles::CHOSEN)
+          .cone_measure(i == 2 ? CE::Cone_measure::ROOT_MEAN_SQUARE_U : CE::Cone_measure::MAXIMUM_U));
+        seconds[i] = stopwatch.seconds();
+        largest[i] = placement.maximum_log_scale_factor;
+        add_cells(placement, seconds[i], row);
+      }
+      row.push_back(to_text(seconds[1] / seconds[0], 3));
+      row.push_back(to_text(largest[1] / largest[0], 3));
+      print_row(row);
+    }
+  }
+}
+
 std::size_t number(const Cells& arguments, std::size_t i, std::size_t otherwise)
 {
   return i < arguments.size() ? std::stoul(arguments[i]) : otherwise;
@@ -578,7 +620,9 @@ int run(const Cells& arguments)
 {
   if(arguments.size() > 1 && arguments[0] == "--seamless")
     return print_seamless_row(arguments[1], number(arguments, 2, 4), number(arguments, 3, 8));
-  if(!arguments.empty() && arguments[0] == "--header")
+  if(!arguments.empty() && arguments[0] == "--cones")
+    compare_angles(Cells(arguments.begin() + 1, arguments.end()));
+  else if(!arguments.empty() && arguments[0] == "--header")
     print_head(columns);
   else if(!arguments.empty() && arguments[0] == "--place")
     time_placing(number(arguments, 1, 100000), number(arguments, 2, 8));

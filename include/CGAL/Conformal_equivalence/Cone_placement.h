@@ -45,10 +45,6 @@ struct Cone_placement
   /// the area-weighted root mean square of u of `metric`, less its mean: the square root of the sum of A (u - m)^2, A a third of the areas of the
   /// triangles at a vertex of the surface given, all in all 1, and m the mean of u with these weights
   double root_mean_square = 0;
-
-  /// a lower bound, to first order in u, on the root mean square of u that any cones with the same total of |2 pi - angle| have; 0 where it is not
-  /// known: with `Cone_measure::ROOT_MEAN_SQUARE_U` and chosen angles it is
-  double root_mean_square_bound = 0;
   std::size_t number_of_sweeps = 0;        ///< of the concurrent optimization
   std::size_t number_of_moves = 0;         ///< of single cones to vertices nearby that made it better
   std::size_t number_of_solves = 0;        ///< linear systems solved with the one factor

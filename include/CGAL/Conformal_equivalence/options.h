@@ -57,11 +57,11 @@ enum class Cone_measure
 };
 
 /// \ingroup PkgConformalEquivalenceEnums
-/// What determines the angles of cones that are placed, where they are no multiples of a quantum.
+/// What determines the angles of cones that are placed.
 enum class Cone_angles
 {
   CHOSEN, ///< they are chosen with the places, so that the measure is small
-  ZERO_U  ///< u = 0 at the cones, as in section 5.1 of Springborn, Schroeder and Pinkall, 2008
+  ZERO_U  ///< u = 0 at the cones, as in section 5.1 of Springborn, Schroeder and Pinkall, 2008; multiples of a quantum are the nearest ones to these
 };
 
 /// \ingroup PkgConformalEquivalenceEnums

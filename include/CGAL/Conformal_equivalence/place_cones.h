@@ -133,7 +133,8 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 /// growing p. The derivative by a curvature anywhere on the surface says where another cone helps most, and where to move those that are there (in
 /// the spirit of Soliman, Slepcev and Crane, "Optimal Cone Singularities for Conformal Flattening", 2018). When this gains no more, the metric
 /// with these cones is solved for. Where it is worse than foreseen the Laplacian is made anew there, and the cones are moved again. What is
-/// returned is the best metric that was solved for. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
+/// returned is the best metric that was solved for. Where that is still worse by a quarter than what was foreseen at first, as may be where edges have
+/// to be flipped by the thousands, cones with u = 0 are placed as well (see below), and the better one is returned. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
 ///
 /// With an `angle_quantum` and `Cone_measure::ROOT_MEAN_SQUARE_U` the curvatures are multiples of it, those of a closest vector in the lattice
 /// with the Gram matrix of the columns; then the cones move with these, and multiples are chosen anew.
@@ -195,7 +196,7 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///     \cgalParamDefault{that of the bound given, the first in the order of this list; without any, `Cone_measure::MAXIMUM_U`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{cone_angles}
-///     \cgalParamDescription{what determines the angles, if there is no quantum}
+///     \cgalParamDescription{what determines the angles}
 ///     \cgalParamType{`Cone_angles`}
 ///     \cgalParamDefault{`Cone_angles::CHOSEN`}
 ///   \cgalParamNEnd

@@ -12,7 +12,6 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
-#include <CGAL/Conformal_equivalence/internal/Cones/Cone_bound.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_fit.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_model.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_options.h>
@@ -172,11 +171,9 @@ public:
     return u;
   }
 
-  // No cones the sizes of whose curvatures sum up to no more than those of `s` have a root mean square of u below this, to first order.
-  double lower_bound(const Curved_cones& s) { return Cone_bound<NT>(*model_, area_)(s); }
-
 private:
   static constexpr std::size_t most_vertices_of_long_search = 20000; // where a solution costs little
+  static constexpr int decisive_exponent = 8; // of two beginnings the better one is known here, and some cones are put elsewhere
   static constexpr int largest_exponent = 128; // a million vertices: n^{1/128} = 1.11, and far less where |u| is nearly equal at many
 
   bool make_model(Triangulation t, Vertex_vector u)
@@ -236,28 +233,33 @@ private:
       if(is_small)
         improve_mean(other, true);
     }
-    const bool are_different = other.cones != s.cones;
-    approach_maximum(s, thoroughly);
-    if(!thoroughly || !are_different)
-      return;
-    approach_maximum(other, true);
-    if(measure(other) < measure(s))
-      s = std::move(other);
+    if(!thoroughly)
+      return approach_maximum(s, 4 * decisive_exponent, largest_exponent);
+    const int first = is_small ? decisive_exponent / 2 : decisive_exponent;
+    approach_maximum(s, first, decisive_exponent);
+    if(other.cones != s.cones)
+    {
+      approach_maximum(other, first, decisive_exponent);
+      if(measure(other) < measure(s))
+        s = std::move(other);
+    }
+    fit_->set_exponent(decisive_exponent);
+    fit_->fit(s);
+    search_->exchange(s, is_small ? 3 : 1);
+    approach_maximum(s, is_small ? 2 * decisive_exponent : 4 * decisive_exponent, largest_exponent);
   }
 
   // By p-norms of larger and larger p. The best on the way is kept.
-  void approach_maximum(Curved_cones& s, bool thoroughly)
+  void approach_maximum(Curved_cones& s, int first, int last)
   {
     Curved_cones best;
     double least = std::numeric_limits<double>::infinity();
     const bool is_small = places().size() < most_vertices_of_long_search;
-    for(int p = !thoroughly ? 16 : is_small ? 4 : 8; p <= largest_exponent && visitor_.go_further(); p *= is_small ? 2 : 4)
+    for(int p = first; p <= last && visitor_.go_further(); p *= p <= 2 * decisive_exponent ? 2 : 4)
     {
       fit_->set_exponent(p);
       fit_->fit(s);
       search_->slide(s, is_small ? 6 : 3);
-      if(thoroughly && p == 8)
-        search_->exchange(s, is_small ? 3 : 1);
       const double now = measure(s);
       if(now < least)
       {

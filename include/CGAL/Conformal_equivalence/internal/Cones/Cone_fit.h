@@ -5,17 +5,20 @@
 //
 //     |u|_p = (sum of w_v |u_v|^p)^{1/p},   u = u_flat + sum of k_c G_c + spread G_spread - shift,   sum of w_v = 1
 //
-// least (Cone_model.h). For p = 2 these are normal equations, with as many unknowns as there are cones; on a closed surface the curvatures have a
-// given sum, and where the scale of u does not matter `shift` is an unknown. For larger p the normal equations are weighted by |u|^{p-2} and solved
-// again and again: these are Newton's method for |u|_p^p, as its Hessian is p - 1 times their matrix. The largest |u| is approached by powers of
-// two, p = 4, 8, ... (n vertices: n^{-1/p} max |u| <= |u|_p <= max |u| for equal weights).
-// At cones u is not linear in the curvature: there the columns are those of the derivatives, and what is left of u counts as u_flat.
-// Curvatures are kept within bounds: one that violates them most is held at its bound, and the rest is solved again.
+// least (Cone_model.h). For p = 2 this is a quadratic function of as many unknowns as there are cones; on a closed surface the curvatures have a
+// given sum, and where the scale of u does not matter `shift` is an unknown. For larger p it is done by Newton's method for |u|_p^p, whose Hessian
+// is p - 1 times the Gram matrix of the columns with the weights w |u|^{p-2}. The largest |u| is approached by powers of two, p = 4, 8, ... (n
+// vertices: n^{-1/p} max |u| <= |u|_p <= max |u| for equal weights).
+// Where p is large only the few vertices with a large |u| have a weight, and may leave some of the unknowns undetermined: where steps do not make it
+// better, something of the Gram matrix for p = 2 is added, which determines all of them (Levenberg and Marquardt's method).
+// Curvatures are kept within bounds, with their sum (bounded_minimum.h).
+// At cones u is not linear in the curvature: there the columns of the Hessian are those of the derivatives.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_FIT_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_FIT_H
 
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_model.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/bounded_minimum.h>
 
 #include <Eigen/Dense>
 
@@ -55,7 +58,7 @@ class Cone_fit
 public:
   // `weights`: by vertex, with the sum 1. `has_shift`: whether the scale of u does not matter; on closed surfaces it never does. Keeps a reference.
   Cone_fit(Model& model, Eigen::VectorXd weights, bool has_shift)
-    : model_(model), weights_(std::move(weights)), has_shift_(has_shift || model.is_closed())
+    : model_(model), weights_(std::move(weights)), root_weights_(weights_.cwiseSqrt()), has_shift_(has_shift || model.is_closed())
   {}
 
   // p, a power of two
@@ -80,51 +83,86 @@ public:
     return model_.is_closed() && (total > largest_curvature() * double(number_of_cones) || (total < 0 && number_of_cones == 0));
   }
 
-  // The best curvatures. Begins with those of `s` if there are as many as cones, which are within bounds.
-  void fit(Curved_cones& s)
+  // The best curvatures. Begins with those of `s`, if these are as many as there are cones, and within bounds. Ends as soon as it is seen that |u|_p
+  // will not be less than `worth`.
+  void fit(Curved_cones& s, double worth = std::numeric_limits<double>::infinity())
   {
-    const std::vector<Column> x = columns(s);
-    Eigen::VectorXd y;
-    const bool goes_on = std::size_t(s.curvatures.size()) == s.cones.size() && exponent_ > 2 && (!is_spread(s) || s.spread != 0);
-    if(goes_on)
-      y = unknowns(s);
-    for(int p = goes_on ? exponent_ : 2; p <= exponent_; p *= 2)
-      improve(p, x, s, y);
+    Columns x = columns(s);
+    Guess y;
+    if(exponent_ > 2 && can_go_on(s))
+      start(unknowns(s), exponent_, x, y);
+    else
+    {
+      start(least_squares(x), exponent_ > 2 ? 4 : 2, x, y);
+      for(int p = 4; p < exponent_; p *= 2)
+      {
+        improve(p, 1e-2, 0, x, y);
+        judge(2 * p, y);
+      }
+    }
+    if(exponent_ > 2)
+      improve(exponent_, 1e-4, worth, x, y);
     take(y, s);
-    evaluate(x, y, s);
   }
 
   // u and |u|_p for the curvatures that there are; the best shift, if it is free.
   void apply(Curved_cones& s)
   {
-    const std::vector<Column> x = columns(s);
+    const Columns x = columns(s);
     if(!has_shift_)
       s.shift = 0;
-    Eigen::VectorXd y = unknowns(s);
-    evaluate(x, y, s);
-    if(!has_shift_)
-      return;
-    for(int i = 0; i < (exponent_ > 2 ? 8 : 1); ++i)
+    Guess y;
+    start(unknowns(s), exponent_, x, y);
+    for(int i = 0; has_shift_ && i < (exponent_ > 2 ? 8 : 1); ++i)
     {
-      const Eigen::VectorXd w = load_weights(s.u, exponent_);
-      const double by = w.dot(s.u) / w.sum() / (exponent_ - 1);
-      s.shift += by;
-      s.u.array() -= by;
+      const Eigen::VectorXd w = load_weights(y);
+      const double by = w.dot(y.u) / w.sum() / (exponent_ - 1);
+      y.unknowns[y.unknowns.size() - 1] += by;
+      y.linear.array() -= by;
+      y.u.array() -= by;
+      judge(exponent_, y);
     }
-    s.value = value(s.u, exponent_);
+    take(y, s);
   }
 
   // w_v |u_v|^{p-2}, up to a factor: times u_v, the derivative of |u|_p^p, up to a factor.
-  Eigen::VectorXd load_weights(const Eigen::VectorXd& u) const { return load_weights(u, exponent_); }
-
-  // By how much half of |u|_p^p, in the units of `load_weights()`, would grow without each of the cones, to second order.
-  Eigen::VectorXd losses(const Curved_cones& s)
+  Eigen::VectorXd load_weights(const Eigen::VectorXd& u) const
   {
-    const std::vector<Column> x = columns(s);
-    const Eigen::MatrixXd inverse = system(tangent(x, unknowns(s), s), load_weights(s.u, exponent_)).first.fullPivLu().inverse();
-    Eigen::VectorXd result(Eigen::Index(s.cones.size()));
-    for(Eigen::Index i = 0; i < result.size(); ++i)
-      result[i] = inverse(i, i) > 0 ? s.curvatures[i] * s.curvatures[i] / inverse(i, i) : std::numeric_limits<double>::infinity();
+    Guess y;
+    y.u = u;
+    judge(exponent_, y);
+    return load_weights(y);
+  }
+
+  // What becomes of |u|_p^p without one of the cones, to second order.
+  struct Losses
+  {
+    Eigen::VectorXd growth;    // by cone: of half of it, in the units of `load_weights()`
+    Eigen::MatrixXd curvatures; // by cone: the column of the curvatures of all cones then
+  };
+
+  Losses losses(const Curved_cones& s)
+  {
+    const Columns x = columns(s);
+    Guess y;
+    start(unknowns(s), exponent_, x, y);
+    const Eigen::Index n = Eigen::Index(s.cones.size()), m = x.values.cols(), size = m + (model_.is_closed() ? 1 : 0);
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);
+    k.topLeftCorner(m, m) = hessian(x, y).gram + 1e-8 * mean_gram(x);
+    if(model_.is_closed())
+      k.row(m).head(number_of_curvatures(x)).setOnes();
+    k.col(size - 1).head(m) = k.row(size - 1).head(m);
+    const Eigen::MatrixXd inverse = k.fullPivLu().inverse();
+    Losses result;
+    result.growth = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
+    result.curvatures = s.curvatures.replicate(1, n);
+    for(Eigen::Index i = 0; i < n; ++i)
+    {
+      if(!(inverse(i, i) > 0))
+        continue;
+      result.growth[i] = s.curvatures[i] * s.curvatures[i] / inverse(i, i);
+      result.curvatures.col(i) -= s.curvatures[i] / inverse(i, i) * inverse.col(i).head(n);
+    }
     return result;
   }
 
@@ -132,31 +170,83 @@ public:
   Eigen::MatrixXd gram(const Curved_cones& s)
   {
     const Eigen::Index n = Eigen::Index(s.cones.size());
-    const Eigen::MatrixXd k = system(tangent(columns(s), unknowns(s), s), load_weights(s.u, exponent_)).first;
+    const Columns x = columns(s);
+    Guess y;
+    start(unknowns(s), exponent_, x, y);
+    const Eigen::MatrixXd k = hessian(x, y).gram;
     Eigen::MatrixXd result = k.topLeftCorner(n, n);
     if(has_shift_)
-      result -= k.col(n).head(n) * k.row(n).head(n) / k(n, n);
+    {
+      const Eigen::Index shift = k.cols() - 1;
+      result -= k.col(shift).head(n) * k.row(shift).head(n) / k(shift, shift);
+    }
     return result;
   }
 
 private:
-  typedef typename Model::Column Column;
-
   static constexpr double pi() { return Number_constants<double>::pi(); }
 
-  bool is_spread(const Curved_cones& s) const { return are_too_few(s.cones.size()); }
-
-  std::vector<Column> columns(const Curved_cones& s)
+  // u as it depends on the unknowns: the curvatures of the cones, the spread one, if there is one, and the shift, if it is unknown.
+  struct Columns
   {
-    std::vector<Column> result;
-    for(Index c : s.cones)
-      result.push_back(model_.column(c));
-    if(is_spread(s))
-      result.push_back(model_.spread_column());
+    std::vector<Index> cones;
+    std::vector<Cone_apex> apexes; // of the cones
+    Eigen::VectorXd excess_at_zero; // of the cones, which is in u_flat
+    Eigen::MatrixXd values;        // what is linear, by unknown
+  };
+
+  // Unknowns, with u and what is known of its powers.
+  struct Guess
+  {
+    Eigen::VectorXd unknowns;
+    Eigen::VectorXd linear; // u without what it has more at cones
+    Eigen::VectorXd u;
+    double largest = 0;     // |u|
+    Eigen::ArrayXd powers;  // |u / largest|^p
+    double value = std::numeric_limits<double>::infinity(); // |u|_p
+  };
+
+  // The Gram matrix of the derivatives with the weights |u / largest|^{p-2}, and the derivative by the unknowns in the same units.
+  struct Hessian
+  {
+    Eigen::MatrixXd gram;
+    Eigen::VectorXd slope;
+  };
+
+  bool is_spread(const Curved_cones& s) const { return are_too_few(s.cones.size()); }
+  Eigen::Index number_of_curvatures(const Columns& x) const { return x.values.cols() - (has_shift_ ? 1 : 0); }
+
+  Columns columns(const Curved_cones& s)
+  {
+    Columns result;
+    const Eigen::Index n = Eigen::Index(s.cones.size()), n_curvatures = n + (is_spread(s) ? 1 : 0);
+    result.cones = s.cones;
+    result.values.resize(weights_.size(), n_curvatures + (has_shift_ ? 1 : 0));
+    result.excess_at_zero.resize(n);
+    for(Eigen::Index i = 0; i < n; ++i)
+    {
+      const Index c = s.cones[std::size_t(i)];
+      result.apexes.push_back(model_.apex(c));
+      result.excess_at_zero[i] = result.apexes.back().excess(0).first;
+      result.values.col(i) = *model_.column(c);
+    }
+    if(n_curvatures > n)
+      result.values.col(n) = *model_.spread_column();
+    if(has_shift_)
+      result.values.col(n_curvatures).setConstant(-1);
     return result;
   }
 
-  // Curvatures, the spread one if there is one, and the shift if it is unknown.
+  // The Gram matrix for p = 2
+  Eigen::MatrixXd mean_gram(const Columns& x) const { return gram_of(root_weights_.asDiagonal() * x.values); }
+
+  static Eigen::MatrixXd gram_of(const Eigen::MatrixXd& x)
+  {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(x.cols(), x.cols());
+    result.template selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+    return result.template selfadjointView<Eigen::Lower>();
+  }
+
   Eigen::VectorXd unknowns(const Curved_cones& s) const
   {
     const Eigen::Index n = s.curvatures.size();
@@ -169,201 +259,177 @@ private:
     return y;
   }
 
-  void take(const Eigen::VectorXd& y, Curved_cones& s) const
+  void take(Guess& y, Curved_cones& s) const
   {
     const Eigen::Index n = Eigen::Index(s.cones.size());
-    s.curvatures = y.head(n);
-    s.spread = is_spread(s) ? y[n] : 0;
-    s.shift = has_shift_ ? y[y.size() - 1] : 0;
+    s.curvatures = y.unknowns.head(n);
+    s.spread = is_spread(s) ? y.unknowns[n] : 0;
+    s.shift = has_shift_ ? y.unknowns[y.unknowns.size() - 1] : 0;
+    s.u.swap(y.u);
+    s.value = y.value;
   }
 
-  void evaluate(const std::vector<Column>& x, const Eigen::VectorXd& y, Curved_cones& s) const
+  // Are there curvatures to begin with?
+  bool can_go_on(const Curved_cones& s) const
   {
-    s.u = model_.flat();
-    for(std::size_t i = 0; i < x.size(); ++i)
-      s.u += y[Eigen::Index(i)] * *x[i];
-    if(has_shift_)
-      s.u.array() -= y[y.size() - 1];
-    for(std::size_t i = 0; i < s.cones.size(); ++i)
-      s.u[s.cones[i]] += model_.excess(s.cones[i], y[Eigen::Index(i)]).first - model_.excess(s.cones[i], 0).first;
-    s.value = value(s.u, exponent_);
+    if(std::size_t(s.curvatures.size()) != s.cones.size() || !s.curvatures.allFinite() || (is_spread(s) && s.spread == 0))
+      return false;
+    const double rounding = 1e-9, total = s.curvatures.sum() + (is_spread(s) ? s.spread : 0);
+    return (s.cones.empty() || (s.curvatures.maxCoeff() <= largest_curvature() && s.curvatures.minCoeff() >= least_curvature(s.cones.size())))
+        && (!model_.is_closed() || std::abs(total - model_.total_curvature()) <= rounding);
   }
 
-  double value(const Eigen::VectorXd& u, int p) const
+  void start(const Eigen::VectorXd& unknowns, int p, const Columns& x, Guess& y) const
   {
-    const double largest = u.cwiseAbs().maxCoeff();
-    if(!(largest > 0) || !std::isfinite(largest))
-      return largest;
-    return largest * std::pow(weights_.dot(powers(u / largest, p).matrix()), 1. / p);
+    y.unknowns = unknowns;
+    y.linear = model_.flat() + x.values * unknowns;
+    find_u(x, y);
+    judge(p, y);
   }
 
-  // u^p
-  static Eigen::ArrayXd powers(const Eigen::VectorXd& u, int p)
+  // u from what is linear in it
+  void find_u(const Columns& x, Guess& y) const
   {
-    Eigen::ArrayXd result = u.array().square();
-    for(int q = 2; q < p; q *= 2)
-      result = result.square().eval();
-    return result;
+    y.u = y.linear;
+    for(std::size_t i = 0; i < x.cones.size(); ++i)
+      y.u[x.cones[i]] += x.apexes[i].excess(y.unknowns[Eigen::Index(i)]).first - x.excess_at_zero[Eigen::Index(i)];
   }
 
-  Eigen::VectorXd load_weights(const Eigen::VectorXd& u, int p) const
+  // |u|_p
+  void judge(int p, Guess& y) const
   {
-    const double largest = u.cwiseAbs().maxCoeff(), tiny = 1e-30;
-    if(p == 2 || !(largest > 0))
-      return weights_;
-    const Eigen::VectorXd x = u / largest;
-    return weights_.array() * powers(x, p) / (x.array().square() + tiny);
-  }
-
-  // u near y: `rest` and the columns, each but the spread one with something more at its cone.
-  struct Tangent
-  {
-    std::vector<Column> columns;
-    std::vector<Index> cones;
-    std::vector<double> more;
-    Eigen::VectorXd rest;
-  };
-
-  Tangent tangent(const std::vector<Column>& x, const Eigen::VectorXd& y, const Curved_cones& s) const
-  {
-    Tangent result = {x, s.cones, {}, model_.flat()};
-    for(std::size_t i = 0; i < s.cones.size(); ++i)
+    y.largest = y.u.cwiseAbs().maxCoeff();
+    y.value = y.largest;
+    if(!(y.largest > 0) || !std::isfinite(y.largest))
     {
-      const Index c = s.cones[i];
-      const std::pair<double, double> excess = model_.excess(c, y[Eigen::Index(i)]);
-      result.more.push_back(excess.second);
-      result.rest[c] += excess.first - excess.second * y[Eigen::Index(i)] - model_.excess(c, 0).first;
+      y.powers = Eigen::ArrayXd::Ones(y.u.size());
+      return;
     }
-    return result;
+    y.powers = (y.u.array() / y.largest).square();
+    for(int q = 2; q < p; q *= 2)
+      y.powers *= y.powers;
+    y.value *= std::pow(weights_.dot(y.powers.matrix()), 1. / p);
   }
 
-  // For p = 2, where one vertex does not matter
-  Tangent linear(const std::vector<Column>& x, const Curved_cones& s) const
+  Eigen::VectorXd load_weights(const Guess& y) const
   {
-    Tangent result = {x, s.cones, std::vector<double>(s.cones.size(), 0.), model_.flat()};
-    for(Index c : s.cones)
-      result.rest[c] -= model_.excess(c, 0).first;
-    return result;
+    if(exponent_ == 2 || !(y.largest > 0))
+      return weights_;
+    const double tiny = 1e-30;
+    return weights_.array() * y.powers / ((y.u.array() / y.largest).square() + tiny);
   }
 
-  // The matrix and the right side of the normal equations with these weights, with the condition on the sum of the curvatures.
-  std::pair<Eigen::MatrixXd, Eigen::VectorXd> system(const Tangent& x, const Eigen::VectorXd& w) const
+  // Vertices whose weights are next to nothing are left out: of large powers nearly all.
+  Hessian hessian(const Columns& x, const Guess& y) const
   {
-    const Eigen::Index n = Eigen::Index(x.columns.size()), m = n + (has_shift_ ? 1 : 0), size = m + (model_.is_closed() ? 1 : 0);
-    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(size);
+    const Eigen::VectorXd w = load_weights(y);
+    const double tiny = 1e-5 / double(w.size()) * w.sum(); // all in all they are less than steps are accurate
+    std::vector<Eigen::Index> rows;
+    for(Eigen::Index v = 0; v < w.size(); ++v)
+      if(w[v] > tiny)
+        rows.push_back(v);
+    const Eigen::Index n = Eigen::Index(rows.size()), m = x.values.cols();
+    Eigen::VectorXd root(n), load(n);
     for(Eigen::Index i = 0; i < n; ++i)
     {
-      Eigen::VectorXd wx = w.cwiseProduct(*x.columns[std::size_t(i)]);
-      add_more(x, std::size_t(i), w, wx);
-      for(Eigen::Index j = 0; j <= i; ++j)
-      {
-        const std::size_t column = std::size_t(j);
-        k(i, j) = k(j, i) = wx.dot(*x.columns[column]) + (column < x.cones.size() ? wx[x.cones[column]] * x.more[column] : 0);
-      }
-      if(has_shift_)
-        k(i, n) = k(n, i) = -wx.sum();
-      b[i] = -wx.dot(x.rest);
+      root[i] = std::sqrt(w[rows[std::size_t(i)]]);
+      load[i] = root[i] * y.u[rows[std::size_t(i)]];
     }
-    if(has_shift_)
+    Eigen::MatrixXd values(n, m);
+    for(Eigen::Index j = 0; j < m; ++j)
     {
-      k(n, n) = w.sum();
-      b[n] = w.dot(x.rest);
+      const double* const column = x.values.data() + j * x.values.rows();
+      for(Eigen::Index i = 0; i < n; ++i)
+        values(i, j) = root[i] * column[rows[std::size_t(i)]];
     }
+    Hessian result = {gram_of(values), values.transpose() * load};
+    for(std::size_t i = 0; i < x.cones.size(); ++i)
+    {
+      const Eigen::Index c = x.cones[i], k = Eigen::Index(i);
+      const double more = x.apexes[i].excess(y.unknowns[k]).second;
+      const Eigen::VectorXd row = w[c] * more * x.values.row(c).transpose();
+      result.gram.row(k) += row.transpose();
+      result.gram.col(k) += row;
+      result.gram(k, k) += w[c] * more * more;
+      result.slope[k] += w[c] * more * y.u[c];
+    }
+    return result;
+  }
+
+  // The least value of x^T k x / 2 + b^T x with admitted curvatures, from `y`, which has such.
+  Eigen::VectorXd best_admitted(const Columns& x, const Eigen::MatrixXd& k, const Eigen::VectorXd& b, const Eigen::VectorXd& y) const
+  {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const Eigen::Index n = Eigen::Index(x.cones.size());
+    Eigen::VectorXd least = Eigen::VectorXd::Constant(b.size(), -infinity), most = -least;
+    least.head(n).setConstant(least_curvature(x.cones.size()));
+    most.head(n).setConstant(largest_curvature());
+    std::vector<char> is_in_sum;
     if(model_.is_closed())
+      is_in_sum.assign(std::size_t(number_of_curvatures(x)), 1);
+    return Bounded_minimum(k, b, least, most, is_in_sum).from(y);
+  }
+
+  // The solution for p = 2, as if u were linear at cones, too: there one vertex does not matter.
+  Eigen::VectorXd least_squares(const Columns& x) const
+  {
+    Eigen::VectorXd flat = model_.flat(), y = Eigen::VectorXd::Zero(x.values.cols());
+    for(std::size_t i = 0; i < x.cones.size(); ++i)
+      flat[x.cones[i]] -= x.excess_at_zero[Eigen::Index(i)];
+    const Eigen::Index n = Eigen::Index(x.cones.size()), n_curvatures = number_of_curvatures(x);
+    if(model_.is_closed() && n_curvatures > 0)
     {
-      k.row(m).head(n).setOnes();
-      k.col(m).head(n).setOnes();
-      b[m] = model_.total_curvature();
+      if(n_curvatures > n)
+        y[n] = model_.total_curvature();
+      else
+        y.head(n).setConstant(model_.total_curvature() / double(n));
     }
-    return std::make_pair(k, b);
+    return best_admitted(x, mean_gram(x), x.values.transpose() * weights_.cwiseProduct(flat), y);
   }
 
-  static void add_more(const Tangent& x, std::size_t i, const Eigen::VectorXd& w, Eigen::VectorXd& wx)
+  // Newton's method for |u|_p^p, until a step gains no more than a part of `gain`.
+  void improve(int p, double gain, double worth, const Columns& x, Guess& y) const
   {
-    if(i < x.cones.size())
-      wx[x.cones[i]] += w[x.cones[i]] * x.more[i];
-  }
-
-  // The solution of the normal equations with these weights, within the bounds.
-  Eigen::VectorXd solution(const Tangent& x, const Curved_cones& s, const Eigen::VectorXd& w) const
-  {
-    const auto equations = system(x, w);
-    const Eigen::Index n = Eigen::Index(s.cones.size()), m = Eigen::Index(x.columns.size()) + (has_shift_ ? 1 : 0);
-    const double most = largest_curvature(), least = least_curvature(s.cones.size());
-    std::vector<Eigen::Index> open(std::size_t(equations.first.rows()));
-    for(std::size_t i = 0; i < open.size(); ++i)
-      open[i] = Eigen::Index(i);
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(equations.first.rows());
-    for(;;)
-    {
-      const Eigen::Index size = Eigen::Index(open.size());
-      Eigen::MatrixXd k(size, size);
-      Eigen::VectorXd b(size), held = y;
-      for(Eigen::Index i : open)
-        held[i] = 0;
-      const Eigen::VectorXd known = equations.first * held;
-      for(Eigen::Index i = 0; i < size; ++i)
-      {
-        b[i] = equations.second[open[std::size_t(i)]] - known[open[std::size_t(i)]];
-        for(Eigen::Index j = 0; j < size; ++j)
-          k(i, j) = equations.first(open[std::size_t(i)], open[std::size_t(j)]);
-      }
-      const Eigen::VectorXd z = size == 0 ? b : Eigen::VectorXd(k.fullPivLu().solve(b));
-      std::size_t worst = open.size();
-      double violation = 1e-9;
-      for(std::size_t i = 0; i < open.size(); ++i)
-      {
-        y[open[i]] = z[Eigen::Index(i)];
-        if(open[i] >= n)
-          continue;
-        const double v = (std::max)(y[open[i]] - most, least - y[open[i]]);
-        if(v > violation)
-        {
-          violation = v;
-          worst = i;
-        }
-      }
-      if(worst == open.size() || !z.allFinite())
-        return y.head(m);
-      y[open[worst]] = y[open[worst]] > most ? most : least;
-      open.erase(open.begin() + std::ptrdiff_t(worst));
-    }
-  }
-
-  // Newton's method for |u|_p^p from y, or from the solution for p = 2 if y is empty.
-  void improve(int p, const std::vector<Column>& x, const Curved_cones& s, Eigen::VectorXd& y)
-  {
-    if(y.size() == 0)
-      y = solution(linear(x, s), s, weights_);
-    if(p == 2)
-      return;
-    Curved_cones now;
-    now.cones = s.cones;
     const int most_steps = 12;
-    for(int i = 0; i < most_steps; ++i)
+    const double longer = 1.5; // where |u|^p still grows by a factor, steps are too short
+    double damping = 0;        // the part that the Gram matrix for p = 2 has
+    Eigen::MatrixXd mean;      // that matrix
+    Guess trial;
+    for(int i = 0; i < most_steps && y.value > 0; ++i)
     {
-      evaluate(x, y, now);
-      const double before = value(now.u, p);
-      const Eigen::VectorXd to = solution(tangent(x, y, s), s, load_weights(now.u, p)) - y;
-      double after = before;
-      for(double step = 1.5 / (p - 1); step > 0.1 / (p - 1); step /= 2)
+      const Hessian h = hessian(x, y);
+      const double before = y.value;
+      while(!(trial.value < before) && damping < 1)
       {
-        evaluate(x, y + step * to, now);
-        after = value(now.u, p);
-        if(after < before)
+        Eigen::MatrixXd k = (p - 1) / longer * h.gram;
+        if(damping > 0)
+          k += (p - 1) / longer * damping * mean;
+        const Eigen::VectorXd to = best_admitted(x, k, h.slope - k * y.unknowns, y.unknowns) - y.unknowns, by = x.values * to;
+        for(double step = 1; step > 0.1 && !(trial.value < before); step /= 2)
         {
-          y += step * to;
-          break;
+          trial.unknowns = y.unknowns + step * to;
+          trial.linear = y.linear + step * by;
+          find_u(x, trial);
+          judge(p, trial);
         }
+        if(trial.value < before)
+          break;
+        if(damping == 0)
+          mean = mean_gram(x);
+        damping = damping == 0 ? 1e-8 : 1000 * damping;
       }
-      if(!(after < before * (1 - 1e-4)))
+      if(!(trial.value < before))
+        return;
+      std::swap(y, trial);
+      trial.value = std::numeric_limits<double>::infinity();
+      const double gained = before - y.value;
+      if(!(gained > gain * before) || y.value - 4 * gained > worth) // steps gain less and less
         return;
     }
   }
 
   Model& model_;
-  const Eigen::VectorXd weights_;
+  const Eigen::VectorXd weights_, root_weights_;
   const bool has_shift_;
   int exponent_ = 2;
 };

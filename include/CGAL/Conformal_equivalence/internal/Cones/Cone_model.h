@@ -42,6 +42,31 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// A vertex with the curvature that it has at first: an apex of equal triangles.
+class Cone_apex
+{
+public:
+  Cone_apex(double degree, double curvature)
+    : degree_(degree), curvature_(curvature), angle_(admitted((2 * Number_constants<double>::pi() - curvature) / degree)),
+      sine_(std::sin(angle_ / 2)), slope_(1 / (degree * std::tan(angle_ / 2)))
+  {}
+
+  // What is to be added to u, where the curvature becomes k, and its derivative by k.
+  std::pair<double, double> excess(double k) const
+  {
+    const double half = admitted(angle_ - (k - curvature_) / degree_) / 2, sine = std::sin(half);
+    return std::make_pair(2 * std::log(sine_ / sine) - (k - curvature_) * slope_, std::cos(half) / (sine * degree_) - slope_);
+  }
+
+private:
+  // Beyond, edges are flipped.
+  static double admitted(double angle) { return (std::min)((std::max)(angle, 1e-3), Number_constants<double>::pi()); }
+
+  double degree_, curvature_;
+  double angle_; // of each of the triangles
+  double sine_, slope_;
+};
+
 template <typename NT>
 class Cone_model
 {
@@ -106,16 +131,10 @@ public:
   // u where there are no cones; of a closed surface, as if the curvature missing were at the grounded vertex
   const Eigen::VectorXd& flat() const { return flat_; }
 
+  Cone_apex apex(Index v) const { return Cone_apex(double(t_.degree(v)), curvature_[v]); }
+
   // What is to be added to u at v, where the curvature becomes k, and its derivative by k.
-  std::pair<double, double> excess(Index v, double k) const
-  {
-    const double degree = t_.degree(v), least = 1e-3, most = Number_constants<double>::pi(); // beyond, edges are flipped
-    const auto admitted = [&](double angle) { return (std::min)((std::max)(angle, least), most); };
-    const double first = admitted((2 * Number_constants<double>::pi() - curvature_[v]) / degree),
-                 angle = admitted(first - (k - curvature_[v]) / degree), slope = 1 / (degree * std::tan(first / 2));
-    return std::make_pair(2 * std::log(std::sin(first / 2) / std::sin(angle / 2)) - (k - curvature_[v]) * slope,
-                          1 / (degree * std::tan(angle / 2)) - slope);
-  }
+  std::pair<double, double> excess(Index v, double k) const { return apex(v).excess(k); }
 
   // G_c, as accurate as the preconditioner. Kept, as long as memory is modest.
   Column column(Index c)

@@ -60,7 +60,7 @@ public:
     Curved_cones best = with(s, lowest);
     if(highest != lowest && 4 * (p[highest] - level) > level - p[lowest])
     {
-      Curved_cones other = with(s, highest);
+      Curved_cones other = with(s, highest, best.value);
       if(other.value < best.value)
         best = std::move(other);
     }
@@ -84,8 +84,9 @@ public:
     return std::make_pair(lowest, highest);
   }
 
-  // Moves cones as long as that makes it better, at most so many rounds. Returns whether any was.
-  bool slide(Curved_cones& s, int most_rounds)
+  // Moves cones as long as that makes it better, at most so many rounds, or until it is seen that |u|_p will not be less than `worth`. Returns
+  // whether any was moved.
+  bool slide(Curved_cones& s, int most_rounds, double worth = std::numeric_limits<double>::infinity())
   {
     // where |u| is large cones do not move, as a rule
     std::vector<double> stiffness(s.cones.size(), fit_.exponent() > 2 ? 1. / 16 : 1.);
@@ -93,10 +94,12 @@ public:
     for(int round = 0; round < most_rounds; ++round)
     {
       const double before = s.value;
-      if(!move_all(s, stiffness) && !move_one(s, stiffness))
+      const Slope slope = slope_of(s);
+      if(!move_all(s, slope, stiffness) && !move_one(s, slope, stiffness))
         break;
       has_moved = true;
-      if(!(s.value < before * (1 - gain_of_round)))
+      const double gained = before - s.value;
+      if(!(gained > before * gain_of_round) || s.value - (most_rounds - 1 - round) * gained > worth) // rounds gain less and less
         break;
     }
     return has_moved;
@@ -113,7 +116,7 @@ public:
       Curved_cones trial = s;
       if(!take_out(trial, std::size_t(failures)) || !add(trial))
         return has_gained;
-      slide(trial, 4);
+      slide(trial, 4, s.value);
       if(trial.value < s.value * (1 - gain_of_round))
       {
         s = std::move(trial);
@@ -131,14 +134,17 @@ public:
   {
     if(s.cones.size() <= rank || fit_.are_too_few(s.cones.size() - 1))
       return false;
-    const Eigen::VectorXd loss = fit_.losses(s);
+    const typename Cone_fit<NT>::Losses losses = fit_.losses(s);
+    const Eigen::VectorXd& loss = losses.growth;
     std::vector<std::size_t> order(s.cones.size());
     for(std::size_t i = 0; i < order.size(); ++i)
       order[i] = i;
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j)
               { return std::make_pair(loss[Eigen::Index(i)], s.cones[i]) < std::make_pair(loss[Eigen::Index(j)], s.cones[j]); });
-    s.cones.erase(s.cones.begin() + std::ptrdiff_t(order[rank]));
-    s.curvatures.resize(0);
+    const Eigen::Index i = Eigen::Index(order[rank]), n_after = s.curvatures.size() - i - 1;
+    s.cones.erase(s.cones.begin() + std::ptrdiff_t(i));
+    s.curvatures.resize(losses.curvatures.rows() - 1);
+    s.curvatures << losses.curvatures.col(i).head(i), losses.curvatures.col(i).tail(n_after);
     fit_.fit(s);
     return true;
   }
@@ -161,7 +167,7 @@ private:
 
   struct Proposal { Index to; double gain; };
 
-  Curved_cones with(const Curved_cones& s, Index v)
+  Curved_cones with(const Curved_cones& s, Index v, double worth = std::numeric_limits<double>::infinity())
   {
     Curved_cones result = s;
     result.cones.push_back(v);
@@ -172,26 +178,41 @@ private:
     }
     else
       result.curvatures.resize(0);
-    judge(result);
+    judge(result, worth);
     return result;
   }
 
-  void judge(Curved_cones& s)
+  // `worth`: what is no better may be judged roughly
+  void judge(Curved_cones& s, double worth)
   {
     if(are_angles_kept_)
       fit_.apply(s);
     else
-      fit_.fit(s);
+      fit_.fit(s, worth);
+  }
+
+  // Where cones want to go
+  struct Slope
+  {
+    double weight; // the sum of the weights of the load
+    double size;   // the sum of w u^2: a part of it is what |u|_p falls by, if |u|_p^p / p falls by that
+    Eigen::VectorXd potential;
+  };
+
+  Slope slope_of(const Curved_cones& s)
+  {
+    const Eigen::VectorXd w = fit_.load_weights(s.u), load = w.cwiseProduct(s.u);
+    return {w.sum(), load.dot(s.u), model_.response(load)};
   }
 
   // Where each cone is to go.
-  std::vector<Proposal> proposals(const Curved_cones& s, const Eigen::VectorXd& p, double weight, const std::vector<double>& stiffness) const
+  std::vector<Proposal> proposals(const Curved_cones& s, const Slope& slope, const std::vector<double>& stiffness) const
   {
     std::vector<Proposal> result;
     std::vector<Index> taken = s.cones;
     for(std::size_t i = 0; i < s.cones.size(); ++i)
     {
-      result.push_back(walk(s, i, p, stiffness[i] * weight, taken));
+      result.push_back(walk(s, i, slope.potential, stiffness[i] * slope.weight, taken));
       taken.push_back(result.back().to);
     }
     return result;
@@ -229,18 +250,17 @@ private:
     return best;
   }
 
-  bool move_all(Curved_cones& s, std::vector<double>& stiffness)
+  bool move_all(Curved_cones& s, const Slope& slope, std::vector<double>& stiffness)
   {
-    const Eigen::VectorXd w = fit_.load_weights(s.u), p = model_.response(w.cwiseProduct(s.u));
     for(int attempt = 0; attempt < 4; ++attempt)
     {
-      const std::vector<Proposal> to = proposals(s, p, w.sum(), stiffness);
+      const std::vector<Proposal> to = proposals(s, slope, stiffness);
       Curved_cones trial = s;
       for(std::size_t i = 0; i < to.size(); ++i)
         trial.cones[i] = to[i].to;
       if(trial.cones == s.cones)
         return false;
-      judge(trial);
+      judge(trial, s.value);
       if(trial.value < s.value)
       {
         s = std::move(trial);
@@ -254,16 +274,15 @@ private:
     return false;
   }
 
-  // The most promising first.
-  bool move_one(Curved_cones& s, std::vector<double>& stiffness)
+  // The most promising first; what promises next to nothing is not tried.
+  bool move_one(Curved_cones& s, const Slope& slope, std::vector<double>& stiffness)
   {
-    const Eigen::VectorXd w = fit_.load_weights(s.u), p = model_.response(w.cwiseProduct(s.u));
     for(double& x : stiffness)
       x = (std::max)(x / 64, 1. / 64); // where all together did not do
-    const std::vector<Proposal> to = proposals(s, p, w.sum(), stiffness);
+    const std::vector<Proposal> to = proposals(s, slope, stiffness);
     std::vector<std::size_t> order;
     for(std::size_t i = 0; i < to.size(); ++i)
-      if(to[i].to != s.cones[i])
+      if(to[i].to != s.cones[i] && to[i].gain > gain_of_round * slope.size)
         order.push_back(i);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return to[i].gain > to[j].gain; });
     for(std::size_t i : order)
@@ -271,7 +290,7 @@ private:
       Index last = s.cones[i];
       for(int attempt = 0; attempt < 3; ++attempt, stiffness[i] *= 4)
       {
-        const Index next = walk(s, i, p, stiffness[i] * w.sum(), s.cones).to;
+        const Index next = walk(s, i, slope.potential, stiffness[i] * slope.weight, s.cones).to;
         if(next == s.cones[i])
           break;
         if(next == last)
@@ -279,7 +298,7 @@ private:
         last = next;
         Curved_cones trial = s;
         trial.cones[i] = next;
-        judge(trial);
+        judge(trial, s.value);
         if(trial.value < s.value)
         {
           s = std::move(trial);
