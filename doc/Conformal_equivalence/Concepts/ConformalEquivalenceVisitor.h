@@ -27,7 +27,14 @@ public:
   /// \param residual the largest difference of an angle sum from its target, in radians
   void on_iteration(std::size_t iteration, double residual);
 
-  /// is asked before each Newton step. If `false` is returned, the computation ends with the status
+  /// is called in stages that take long, whenever they have come further: in `CGAL::Conformal_equivalence::Stage::PLACE`, the only one so far,
+  /// after each cone. A visitor need not have this function.
+  /// \param number how many cones are placed by now
+  /// \param measure the measure that is made small (`CGAL::Conformal_equivalence::Cone_measure`), as the search sees it with these cones: before
+  ///        they are moved to better places, and to first order in u
+  void on_progress(CGAL::Conformal_equivalence::Stage stage, std::size_t number, double measure);
+
+  /// is asked before each Newton step, and for each cone that is placed or moved. If `false` is returned, the computation ends with the status
   /// `CGAL::Conformal_equivalence::Status::STOPPED_BY_VISITOR`, and no map is written.
   bool go_further();
 };

@@ -15,6 +15,7 @@
 #include "../include/flatten_mesh/option_table.h"
 #include "../include/flatten_mesh/options.h"
 #include "../include/flatten_mesh/Output_files.h"
+#include "../include/flatten_mesh/Progress.h"
 #include "../include/flatten_mesh/several_inputs.h"
 #include "../include/flatten_mesh/side_by_side.h"
 #include "../include/flatten_mesh/solve.h"
@@ -30,6 +31,7 @@
 #include <cstddef>
 #include <exception>
 #include <new>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -110,6 +112,8 @@ std::vector<std::string> notices(const Options& options, const Given_surface& gi
 std::string reason_of_failure(const Options& options, const Given_surface& given, const Results& results, const Conditions& conditions,
                               const Report& report)
 {
+  if(is_interrupted())
+    return "interrupted";
   const Mesh& mesh = results.given.mesh;
   if(results.components.empty() || CE::is_success(results.components.back().status))
     return explanation(options, given, mesh, conditions, report, Mesh::null_face());
@@ -129,6 +133,8 @@ void run(const Options& given_options, Output_files& files, std::ostream& out, s
 
   const CE::Working_precision precision(options.precision_in_bits);
   const Stopwatch watch;
+  std::optional<Progress> progress(std::in_place, err, kind_of_progress(err, options.quiet));
+  progress->begin("reading");
   Mesh mesh;
   const Given_surface given = read_surface(options.input, options.repair, mesh, options.format);
   options = with_vertices_of_mesh(options, given);
@@ -141,13 +147,11 @@ void run(const Options& given_options, Output_files& files, std::ostream& out, s
   Conditions conditions(given, mesh);
   set_conditions(options, mesh, given, conditions);
   Results results(mesh);
-  {
-    Progress progress(err, ! options.quiet && is_terminal(err));
-    figures.report = flatten(options, conditions, results, progress);
-    name_as_given(given, figures.report);
-  }
+  figures.report = flatten(options, conditions, results, *progress);
+  name_as_given(given, figures.report);
   if(! figures.report)
     fail(options.input, ": ", reason_of_failure(options, given, results, conditions, figures.report));
+  progress->begin("judging");
   find_range_of_u(results.given, figures);
   describe_components(results.given, figures);
 
@@ -161,7 +165,9 @@ void run(const Options& given_options, Output_files& files, std::ostream& out, s
   judge(options, results.given, drawn, figures);
   require_verdict(options, figures);
   figures.notices = notices(options, given, drawn, beside, figures);
+  progress->begin("writing");
   write_outputs(options, mesh, drawn, beside, figures, files);
+  progress.reset();
   if(options.quiet)
     return;
   print_summary(is_output_in_stream(options) ? err : out, options, mesh, figures);

@@ -196,7 +196,7 @@ void run_hyperbolic(const Options& options, Output_files& files, std::ostream& o
   const Given_surface given = read_surface(options.input, options.repair, mesh, options.format);
   Uniformization u;
   {
-    Progress progress(err, ! options.quiet && is_terminal(err));
+    Progress progress(err, kind_of_progress(err, options.quiet));
     Progress_visitor visitor(progress);
     u = CE::uniformize_hyperbolic(mesh, CGAL::parameters::mollification(options.mollification)
                                           .gradient_tolerance(options.tolerance)

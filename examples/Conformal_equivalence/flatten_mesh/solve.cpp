@@ -10,14 +10,8 @@
 #include "../include/flatten_mesh/Stopwatch.h"
 
 #include <cstddef>
-#include <iostream>
-#include <ostream>
 #include <string>
 #include <unordered_map>
-
-#if defined(__unix__) || defined(__APPLE__)
-#  include <unistd.h>
-#endif
 
 namespace flattening {
 
@@ -70,26 +64,6 @@ Report for_each_component(const Options& options, const Conditions& conditions, 
 
 } // namespace
 
-bool is_terminal(const std::ostream& err)
-{
-#if defined(__unix__) || defined(__APPLE__)
-  return &err == &std::cerr && isatty(STDERR_FILENO);
-#else
-  return false;
-#endif
-}
-
-void Progress_visitor::on_stage(CE::Stage stage)
-{
-  static const char* names[] = { "importing", "solving", "cutting", "laying out", "verifying" };
-  progress->show(names[static_cast<int>(stage)]);
-}
-
-void Progress_visitor::on_iteration(std::size_t iteration, double residual)
-{
-  progress->show(text("solving: Newton step ", iteration, ", residual ", residual));
-}
-
 Report flatten(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
 {
   if(options.target != Target::PLANE || options.seamless)
@@ -98,7 +72,6 @@ Report flatten(const Options& options, const Conditions& conditions, Results& re
   if(options.places_cones)
   {
     const Stopwatch watch;
-    progress.show("placing cones");
     placement = for_each_component(options, conditions, results, progress, place_cones_on_component);
     results.placing_seconds = watch.seconds();
     if(! placement)

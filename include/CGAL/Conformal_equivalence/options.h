@@ -88,8 +88,25 @@ enum class Stage
   SOLVE,  ///< Newton's method
   CUT,    ///< cutting the surface open
   LAYOUT, ///< from lengths to points of the plane
-  VERIFY  ///< orientations of the triangles
+  VERIFY, ///< orientations of the triangles
+  PLACE   ///< the search for places of cones
 };
+
+/// \ingroup PkgConformalEquivalenceStatus
+/// What is done in a stage, in one word or two: "solving", for example.
+inline const char* stage_name(Stage stage)
+{
+  switch(stage)
+  {
+    case Stage::IMPORT: return "importing";
+    case Stage::SOLVE:  return "solving";
+    case Stage::CUT:    return "cutting";
+    case Stage::LAYOUT: return "laying out";
+    case Stage::VERIFY: return "verifying";
+    case Stage::PLACE:  return "placing cones";
+  }
+  return "";
+}
 
 /// \ingroup PkgConformalEquivalenceStatus
 /// The visitor that does nothing: model of `ConformalEquivalenceVisitor`.
@@ -99,6 +116,8 @@ struct Default_visitor
   void on_stage(Stage) {}
   /// does nothing.
   void on_iteration(std::size_t /* iteration */, double /* residual */) {}
+  /// does nothing.
+  void on_progress(Stage, std::size_t /* number */, double /* measure */) {}
   /// returns `true`.
   bool go_further() { return true; }
 };

@@ -1,8 +1,12 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+// What is told of a computation while it is going on, and how it is stopped.
+
 #ifndef FLATTEN_MESH_PROGRESS_H
 #define FLATTEN_MESH_PROGRESS_H
+
+#include "Stopwatch.h"
 
 #include <CGAL/Conformal_equivalence/options.h>
 
@@ -12,37 +16,51 @@
 
 namespace flattening {
 
-// Shows on a terminal how far the computation is, in one line that is wiped out at the end.
+// On a terminal one line, with a bar where it is known how much is left to do, which is wiped out at the end. Elsewhere a line for each stage, and
+// for one that takes long another from time to time; but nothing at all of what is done in a moment.
 class Progress
 {
 public:
-  Progress(std::ostream& err, bool is_shown) : err_(err), is_shown_(is_shown) {}
-  ~Progress() { show(""); }
+  enum class Kind { NOTHING, ONE_LINE, LINES };
+
+  Progress(std::ostream& err, Kind kind) : err_(err), kind_(kind) {}
+  ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void show(const std::string& line)
-  {
-    if(is_shown_)
-      err_ << "\r\033[K" << line << std::flush;
-  }
+  // A stage begins, which is called so.
+  void begin(const std::string& stage);
+
+  // How far it is: `part` of it, from 0 to 1, is done; negative if that is not known.
+  void show(const std::string& details, double part);
 
 private:
   std::ostream& err_;
-  bool is_shown_;
+  const Kind kind_;
+  const Stopwatch watch_;
+  std::string stage_;
+  bool is_told_ = false;                   // is there a line for this stage?
+  double stage_began_ = 0, last_line_ = 0; // seconds
 };
 
-// Whether `err` is the standard error stream, and a person looks at it.
-bool is_terminal(const std::ostream& err);
+// For a person who looks at the standard error stream, or a file that it is written to.
+Progress::Kind kind_of_progress(const std::ostream& err, bool is_quiet);
+
+// From now on an interrupt (Ctrl-C) ends the computation in good order, with nothing written; a second one ends the program at once.
+void stop_at_interrupt();
+bool is_interrupted();
 
 struct Progress_visitor : CGAL::Conformal_equivalence::Default_visitor
 {
   Progress* progress;
+  double first_residual = 0;
 
   explicit Progress_visitor(Progress& progress) : progress(&progress) {}
 
   void on_stage(CGAL::Conformal_equivalence::Stage stage);
   void on_iteration(std::size_t iteration, double residual);
+  void on_progress(CGAL::Conformal_equivalence::Stage stage, std::size_t number, double measure);
+  bool go_further() { return ! is_interrupted(); }
 };
 
 } // namespace flattening

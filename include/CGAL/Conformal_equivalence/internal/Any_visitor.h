@@ -11,11 +11,16 @@
 
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
+
+template <typename Visitor, typename = void> struct has_on_progress : std::false_type {};
+template <typename Visitor>
+struct has_on_progress<Visitor, std::void_t<decltype(std::declval<Visitor&>().on_progress(Stage(), std::size_t(), double()))> > : std::true_type {};
 
 // Holds a copy of a visitor, or, of one that comes by `std::ref`, a reference to it. Copies of an `Any_visitor` share it.
 class Any_visitor
@@ -34,6 +39,7 @@ public:
 
   void on_stage(Stage stage) const { if(visitor_) visitor_->on_stage(stage); }
   void on_iteration(std::size_t iteration, double residual) const { if(visitor_) visitor_->on_iteration(iteration, residual); }
+  void on_progress(Stage stage, std::size_t number, double measure) const { if(visitor_) visitor_->on_progress(stage, number, measure); }
   bool go_further() const { return !visitor_ || visitor_->go_further(); }
 
 private:
@@ -42,6 +48,7 @@ private:
     virtual ~Interface() = default;
     virtual void on_stage(Stage stage) = 0;
     virtual void on_iteration(std::size_t iteration, double residual) = 0;
+    virtual void on_progress(Stage stage, std::size_t number, double measure) = 0;
     virtual bool go_further() = 0;
   };
 
@@ -53,6 +60,12 @@ private:
     explicit Holder(Visitor v) : visitor(std::move(v)) {}
     void on_stage(Stage stage) override { unwrap(visitor).on_stage(stage); }
     void on_iteration(std::size_t iteration, double residual) override { unwrap(visitor).on_iteration(iteration, residual); }
+    void on_progress(Stage stage, std::size_t number, double measure) override
+    {
+      typedef std::remove_reference_t<decltype(unwrap(visitor))> Unwrapped;
+      if constexpr(has_on_progress<Unwrapped>::value) // optional in the concept
+        unwrap(visitor).on_progress(stage, number, measure);
+    }
     bool go_further() override { return unwrap(visitor).go_further(); }
   };
 

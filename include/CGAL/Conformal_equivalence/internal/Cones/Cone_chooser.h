@@ -107,6 +107,7 @@ public:
       if(!search_->add(s))
         break;
       search_->slide(s, 2);
+      visitor_.on_progress(Stage::PLACE, s.cones.size(), measure(s));
     }
     improve(s, true);
     return s;
@@ -261,6 +262,7 @@ private:
       fit_->fit(s);
       search_->slide(s, is_small ? 6 : 3);
       const double now = measure(s);
+      visitor_.on_progress(Stage::PLACE, s.cones.size(), now);
       if(now < least)
       {
         least = now;

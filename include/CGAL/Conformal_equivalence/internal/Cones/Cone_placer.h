@@ -79,6 +79,8 @@ private:
     result_.amount = amount;
   }
 
+  const Any_visitor& visitor() const { return solver_options_.visitor; }
+
   // ---- What can be asked for
 
   bool check()
@@ -280,6 +282,7 @@ private:
   // Places and angles together. Returns whether there is a metric with these; if there is none, cones with u = 0 may have one.
   bool choose()
   {
+    visitor().on_stage(Stage::PLACE);
     Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, solver_options_.visitor);
     if(!chooser.begin())
       return false;
@@ -289,7 +292,7 @@ private:
     if(is_stopped())
       return true;
     s = chooser.placed(most_cones_for_bound);
-    if(!solver_options_.visitor.go_further())
+    if(!visitor().go_further())
     {
       refuse(Status::STOPPED_BY_VISITOR);
       return true;
@@ -516,6 +519,7 @@ private:
   void place_with_zero_u()
   {
     result_ = Cone_placement<NT>();
+    visitor().on_stage(Stage::PLACE);
     Search search(t_, pieces_.components[0], std::move(search_factorization_), options_.measure);
     if(!search.factorize())
       return refuse(Status::SINGULAR_PROBLEM);
@@ -550,7 +554,16 @@ private:
       if(!search.put_cone(p))
         return;
       search.relax(p, steps);
+      if(!goes_further(p))
+        return;
     }
+  }
+
+  // Tells the visitor how far the search is. Returns whether it is to go on.
+  bool goes_further(const Placement& p) const
+  {
+    visitor().on_progress(Stage::PLACE, p.cones.size(), p.measure);
+    return visitor().go_further();
   }
 
   // Nonlinear Gauss-Seidel: each cone in turn is taken out, and put where |u| is largest then. Keeps the best.
@@ -571,7 +584,7 @@ private:
       search.relax(p, 2);
       if(p.measure < best.measure && p.error <= (std::max)(best.error, 0.1))
         best = p;
-      if(!seen.insert(sorted(p.cones)).second)
+      if(!seen.insert(sorted(p.cones)).second || !goes_further(best))
         break;
     }
     return best;
@@ -595,7 +608,7 @@ private:
     std::set<std::pair<Index, Index> > tried;
     std::size_t number_of_moves = 0;
     search.watch(p);
-    for(int failures = 0; reach >> (failures / 2) > 0; )
+    for(int failures = 0; reach >> (failures / 2) > 0 && goes_further(p); )
     {
       const Cone_move move = search.best_move(p, reach >> (failures / 2), tried);
       const double enough = (1 - gain) * p.measure;
@@ -662,6 +675,7 @@ private:
     if(options_.angles != Cone_angles::CHOSEN || !result_.is_rounded || options_.measure == Cone_measure::DIRICHLET_ENERGY || result_.cones.empty()
        || result_.status != Status::OK || !is_success(result_.metric.status))
       return;
+    visitor().on_stage(Stage::PLACE);
     Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, solver_options_.visitor);
     if(!chooser.go_on_from(result_.metric) && !chooser.begin())
       return;

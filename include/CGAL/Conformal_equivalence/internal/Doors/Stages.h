@@ -28,7 +28,8 @@ inline double& seconds_of_stage(Stage stage, Statistics::Seconds& seconds)
     case Stage::SOLVE:  return seconds.solve;
     case Stage::CUT:    return seconds.cut;
     case Stage::LAYOUT: return seconds.layout;
-    case Stage::VERIFY: break;
+    case Stage::VERIFY:
+    case Stage::PLACE:  break;
   }
   return seconds.verify;
 }
