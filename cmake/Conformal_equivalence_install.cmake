@@ -67,12 +67,16 @@ if(TARGET flatten_mesh)
                      ${_commands} DEPENDS flatten_mesh WORKING_DIRECTORY "${_texts}" VERBATIM)
   add_custom_target(flatten_mesh_texts ALL DEPENDS "${_texts}/flatten_mesh.1")
 
+  set(CONFORMAL_EQUIVALENCE_ZSH_DIR "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" CACHE STRING
+      "Where zsh looks for completions (packages of Debian: share/zsh/vendor-completions)")
+  mark_as_advanced(CONFORMAL_EQUIVALENCE_ZSH_DIR)
+
   # It may be that only other targets were built: what is not there is not installed.
   install(TARGETS flatten_mesh RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program OPTIONAL)
   install(FILES "${_texts}/flatten_mesh.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program OPTIONAL)
   install(FILES "${_texts}/flatten_mesh.bash" RENAME flatten_mesh DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
           COMPONENT program OPTIONAL)
-  install(FILES "${_texts}/_flatten_mesh" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" COMPONENT program OPTIONAL)
+  install(FILES "${_texts}/_flatten_mesh" DESTINATION "${CONFORMAL_EQUIVALENCE_ZSH_DIR}" COMPONENT program OPTIONAL)
   install(FILES "${_texts}/flatten_mesh.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT program OPTIONAL)
   install(FILES "${PROJECT_SOURCE_DIR}/examples/Conformal_equivalence/flatten_mesh/report.schema.json"
           DESTINATION "${CMAKE_INSTALL_DATADIR}/flatten_mesh" COMPONENT program)

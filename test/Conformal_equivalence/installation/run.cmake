@@ -60,9 +60,10 @@ endif()
 
 if(WITH_PROGRAM)
   run("${prefix}/bin/flatten_mesh" --version)
-  foreach(file IN ITEMS share/man/man1/flatten_mesh.1 share/bash-completion/completions/flatten_mesh share/zsh/site-functions/_flatten_mesh
-          share/fish/vendor_completions.d/flatten_mesh.fish)
-    file(READ "${prefix}/${file}" content)
+  file(GLOB zsh_file "${prefix}/share/zsh/*/_flatten_mesh")
+  foreach(file IN ITEMS "${prefix}/share/man/man1/flatten_mesh.1" "${prefix}/share/bash-completion/completions/flatten_mesh" "${zsh_file}"
+          "${prefix}/share/fish/vendor_completions.d/flatten_mesh.fish")
+    file(READ "${file}" content)
     require_in("${content}" "lattice")
   endforeach()
   file(WRITE "${build}/tent.off" "OFF\n4 3 0\n0 0 1\n1 0 0\n0 1 0\n-1 -1 0\n3 0 1 2\n3 0 2 3\n3 0 3 1\n")

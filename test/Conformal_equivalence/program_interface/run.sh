@@ -160,11 +160,15 @@ elif [ -z "$python" ]; then
   skipped "reports: there is no python3 with jsonschema"
 else
   "$program" "a b.off" bad.off c.ply --quiet --tolerance 1e-9 --boundary natural --report - > all.json 2> err || true
-  "$program" c.ply --target disk --quiet --report disk.json
+  { printf 'OFF\n8 6 0\n%s\n%s\n' "$tent" "$tent"; printf '3 0 %d %d\n' 1 2 2 3 3 1; printf '3 4 %d %d\n' 5 6 6 7 7 5; } > two.off
+  "$program" two.off --target disk --quiet --report disk.json
+  "$program" two.off --seamless --repair --quiet --report two.json
   if [ -d "$meshes" ]; then
     "$program" "$meshes/eight.off" --target hyperbolic --quiet --report hyperbolic.json
     "$program" "$meshes/bear.off" --target sphere --quiet --report sphere.json
-    "$program" "$meshes/eight.off" --seamless --quiet --report handles.json
+    "$program" "$meshes/torus_quad.off" --projective --quiet --report torus.json
+    "$program" "$meshes/blob.off" --local-repair --quiet --report repaired.json
+    "$program" "$meshes/eight.off" --cones auto=8 --seamless --quiet --report handles.json
   fi
   $python - "$source/examples/Conformal_equivalence/flatten_mesh/report.schema.json" *.json "${reports[@]}" << 'END' || failed "reports"
 import json
