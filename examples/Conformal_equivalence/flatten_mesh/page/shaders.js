@@ -69,6 +69,9 @@ in vec3 barycentric;
 in float u;
 flat in int face;
 flat in uvec4 code;
+#ifdef IS_SAMPLE
+uniform float footprint;        // of a sample; that of a pixel is found by differences
+#endif
 uniform bool is_plane, is_wire;
 uniform int mode;               // 0 pattern, 1 u, 2 area factor, 3 quasi-conformal factor
 uniform vec2 area_range, factor_range; // of the codes
