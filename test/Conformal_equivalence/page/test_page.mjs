@@ -63,18 +63,18 @@ async function open(browser, file)
 
 // ---- seams
 
-// The colours on both sides of all seam edges are the same, for patterns of several sizes; they are not, if the pattern is moved by a quarter.
+// The colours on both sides of all seam edges are the same, for patterns of several sizes; they are not, if the pattern is moved by a fourth of a strip.
 async function test_seams(browser, file, symmetry)
 {
   await open(browser, file);
-  for(const parts of [1, 2, 3, 7])
+  for(const parts of [1, 2, 7])
   {
     const { samples, differing, light, dark } = await ask(browser, in_page.compare_seams, parts, 0);
     assert.equal(differing, 0, `symmetry ${symmetry}, ${parts} parts: ${differing} of ${samples} samples differ across seams`);
-    assert(light > samples / 10 && dark > samples / 10, `symmetry ${symmetry}: ${light} light and ${dark} dark ones of ${samples} samples`);
+    assert(light > samples / 20 && dark > samples / 20, `symmetry ${symmetry}: ${light} light and ${dark} dark ones of ${samples} samples`);
   }
-  const moved = await ask(browser, in_page.compare_seams, 1, .5);
-  assert(symmetry === 2 ? moved.differing > 0 : moved.differing > moved.samples / 20, "a pattern that does not fit is not told apart");
+  const moved = await ask(browser, in_page.compare_seams, 1, .25);
+  assert(moved.differing > moved.samples / 20, "a pattern that does not fit is not told apart");
   assert.equal(await ask(browser, in_page.symmetry), symmetry);
 }
 
@@ -230,8 +230,8 @@ async function test_without_graphics(browser, file)
 // ---- all of it
 
 const lattices = [
-  [4, "bear.off", "--cones", "auto=8"], [2, "pig.off", "--cones", "auto=4", "--quantize", "180"],
-  [3, "pig.off", "--cones", "auto=6", "--quantize", "120"], [6, "pig.off", "--cones", "auto=8", "--quantize", "60"]
+  [4, "bear.off", "--cones", "auto=8"], [2, "lion-head.off", "--cones", "auto=5", "--quantize", "180"],
+  [3, "lion-head.off", "--cones", "auto=5", "--quantize", "120"], [6, "lion-head.off", "--cones", "auto=5", "--quantize", "60"]
 ];
 let browser;
 const begin = Date.now();

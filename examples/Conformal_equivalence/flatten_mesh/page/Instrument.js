@@ -316,23 +316,28 @@ export class Instrument
 
   // ---- for tests
 
-  // The colours, four bytes each, of points of the layout in coordinates of the page.
+  // The colours, four bytes each, of points of the layout in coordinates of the page, as pixels of the size `footprint` would have them.
   sample_pattern(points, footprint)
   {
-    const n = points.length / 2, result = new Uint8Array(4 * n), most = 2048;
+    const n = points.length / 2, result = new Uint8Array(4 * n), most = 4096, scene = new THREE.Scene();
+    this.samples ??= make_samples(this.uniforms);
+    scene.add(this.samples);
+    this.samples.material.uniforms.footprint.value = footprint;
     for(let begin = 0; begin < n; begin += most)
     {
       const m = Math.min(most, n - begin), target = new THREE.WebGLRenderTarget(m, 1, { depthBuffer: false });
-      const samples = make_samples(this.uniforms, points.slice(2 * begin, 2 * (begin + m)), footprint), scene = new THREE.Scene();
-      scene.add(samples);
+      const geometry = new THREE.BufferGeometry(), pixels = new Uint8Array(4 * m);
+      geometry.setAttribute("sample_point", new THREE.BufferAttribute(points.slice(2 * begin, 2 * (begin + m)), 2));
+      geometry.setDrawRange(0, m);
+      this.samples.geometry = geometry;
+      this.samples.material.uniforms.number_of_samples.value = m;
       this.renderer.setRenderTarget(target);
       this.renderer.render(scene, this.layout.camera);
-      const pixels = new Uint8Array(4 * m);
       this.renderer.readRenderTargetPixels(target, 0, 0, m, 1, pixels);
       this.renderer.setRenderTarget(null);
       result.set(pixels, 4 * begin);
-      for(const x of [samples.geometry, samples.material, target])
-        x.dispose();
+      geometry.dispose();
+      target.dispose();
     }
     return result;
   }

@@ -51,10 +51,10 @@ vec3 pattern(vec2 q, vec2 dx, vec2 dy)
   float odd = 0., blur = 0.;
   for(int i = 0; i < number_of_strips; ++i)
   {
-    float footprint = abs(dot(strips[i].xy, dx)) + abs(dot(strips[i].xy, dy));
-    float s = strip(dot(strips[i].xy, q) + strips[i].z, footprint);
+    float pixel = length(vec2(dot(strips[i].xy, dx), dot(strips[i].xy, dy)));
+    float s = strip(dot(strips[i].xy, q) + strips[i].z, pixel);
     odd = odd + s - 2. * odd * s;
-    blur = max(blur, footprint);
+    blur = max(blur, pixel);
   }
   return mix(board_light, board_dark, mix(odd, .5, smoothstep(.7, 1.6, blur)));
 }`;
@@ -69,6 +69,9 @@ in vec3 barycentric;
 in float u;
 flat in int face;
 flat in uvec4 code;
+#ifdef IS_SAMPLE
+uniform float footprint;        // of a sample; that of a pixel is found by differences
+#endif
 uniform bool is_plane, is_wire;
 uniform int mode;               // 0 pattern, 1 u, 2 area factor, 3 quasi-conformal factor
 uniform vec2 area_range, factor_range; // of the codes

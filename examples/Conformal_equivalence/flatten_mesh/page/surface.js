@@ -113,16 +113,13 @@ export function make_pickable(data, uniforms, is_plane)
   return mesh(data, material(uniforms, is_plane, pick_fragment_shader, { blending: THREE.NoBlending }));
 }
 
-// Points whose colours are to be sampled, each of the size `footprint`, both in coordinates of the page.
-export function make_samples(uniforms, points, footprint)
+// A point for each pixel of a row, whose colour is that of a point of the layout; see Instrument.sample_pattern().
+export function make_samples(uniforms)
 {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("sample_point", new THREE.BufferAttribute(points, 2));
-  geometry.setDrawRange(0, points.length / 2);
-  const samples = new THREE.Points(geometry, new THREE.RawShaderMaterial({
+  const samples = new THREE.Points(new THREE.BufferGeometry(), new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3, vertexShader: sample_vertex_shader, fragmentShader: fill_fragment_shader, blending: THREE.NoBlending,
-    defines: { IS_SAMPLE: "", PATTERN_DX: `vec2(${footprint.toExponential()}, 0.)`, PATTERN_DY: `vec2(0., ${footprint.toExponential()})` },
-    uniforms: { ...uniforms, is_plane: { value: true }, number_of_samples: { value: points.length / 2 } }
+    defines: { IS_SAMPLE: "", PATTERN_DX: "vec2(footprint, 0.)", PATTERN_DY: "vec2(0., footprint)" },
+    uniforms: { ...uniforms, is_plane: { value: true }, number_of_samples: { value: 1 }, footprint: { value: 0 } }
   }));
   samples.frustumCulled = false;
   return samples;
