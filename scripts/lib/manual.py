@@ -17,6 +17,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import unicodedata
 
 
 def read(path):
@@ -73,23 +74,25 @@ def anchored(folder):
             for name, words in re.findall(anchor + r'<(?:code|b)>(.*?)</(?:code|b)>', text, re.S):
                 for part in plain(words).split(', '):
                     yield part, page, name, title
-        for level, name, words in re.findall(r'<h([1-4])[^>]*>' + anchor + r'(.*?)</h\1>', text, re.S):
-            yield plain(words), page, name, title
-            body = text[text.index('id="%s"' % name):]
-            body = body[:body.find('<h%s' % level, 10)]
-            for option in sorted(set(re.findall(r'(?<=\s)--[a-z][a-z-]+', '\n'.join(re.findall(r'<pre.*?</pre>', body, re.S))))):
-                yield option, page, name, title
+        section = title
+        for heading in re.finditer(r'<h([1-4])[^>]*>' + anchor + r'(.*?)</h\1>(.*?)(?=<h[1-4]\b|\Z)', text, re.S):
+            level, name, words, body = heading.groups()
+            yield plain(words), page, name, title if level == '1' else section
+            section = '%s: %s' % (title, plain(words)) if level == '1' else section
+            for option in sorted(set(re.findall(r'(?<=\s)--[a-z][a-z-]+', ' '.join(re.findall(r'<pre.*?</pre>', body, re.S))))):
+                yield option, page, name, plain(words)
 
 
 def entries_of(words, page, anchor, title):
     """Entries that begin with each word but the little ones, as the search compares beginnings."""
     little = {'a', 'an', 'and', 'are', 'as', 'at', 'be', 'by', 'can', 'for', 'from', 'in', 'is', 'it', 'its', 'of', 'on',
               'or', 'that', 'the', 'this', 'to', 'what', 'which', 'with'}
-    for begin in re.finditer(r'[\w\u0080-\uffff]+', words):
-        if begin.group().lower() not in little:
-            yield identifier(words[begin.start():]), [words, ['../%s#%s' % (page, anchor), 1, title]]
-    if words.startswith('-'):
-        yield identifier(words), [words, ['../%s#%s' % (page, anchor), 1, title]]
+    begins = [begin.start() for begin in re.finditer(r'\w+', words) if begin.group().lower() not in little]
+    for begin in begins + [0] * words.startswith('-'):
+        key = words[begin:]
+        without_accents = ''.join(c for c in unicodedata.normalize('NFD', key) if not unicodedata.combining(c))
+        for k in sorted({key, without_accents}):
+            yield identifier(k), [words, ['../%s#%s' % (page, anchor), 1, title]]
 
 
 def first_letter(key):
