@@ -19,7 +19,8 @@ namespace flattening {
 namespace {
 
 const double patience = 2;         // seconds in which nothing is said where no terminal is
-const double seconds_to_next = 10; // between lines of one stage
+const double seconds_to_next = 10; // between lines of one stage, and between those of different ones: components may have many short stages
+const double seconds_to_other = 1;
 
 volatile std::sig_atomic_t was_interrupted = 0;
 
@@ -63,7 +64,7 @@ void Progress::show(const std::string& details, double part)
       err_ << ", " << std::lround(now - stage_began_) << " s";
     err_ << std::flush;
   }
-  else if(kind_ == Kind::LINES && now >= patience && (! is_told_ || now >= last_line_ + seconds_to_next))
+  else if(kind_ == Kind::LINES && now >= patience && now >= last_line_ + (is_told_ ? seconds_to_next : seconds_to_other))
   {
     err_ << "flatten_mesh: " << stage_ << details << ", " << std::lround(now) << " s" << std::endl;
     last_line_ = now;

@@ -320,7 +320,8 @@ Report map_each_component(const Components& components, const Options& options, 
   Refinement_merger refinements(results);
   for(std::size_t c = 0; c < components.size(); ++c)
   {
-    progress.show(text("component ", c + 1, " of ", components.size()));
+    progress.begin("mapping components");
+    progress.show(text(": ", c + 1, " of ", components.size()), double(c) / double(components.size()));
     Component_mesh part;
     components.get_mesh(c, part);
     Options its_options = options;
