@@ -623,7 +623,8 @@ BOOST_AUTO_TEST_CASE(chosen_angles_are_no_worse_than_zero_u, *needs_mesh("pinion
     double curvature = 0;
     for(const auto& angle : chosen.angles)
       curvature += 2 * pi - angle.radians();
-    BOOST_TEST(std::abs(curvature - 2 * pi * only_component(imported.triangulation).euler_characteristic()) <= 1e-6);
+    if(only_component(imported.triangulation).number_of_borders == 0)
+      BOOST_TEST(std::abs(curvature - 2 * pi * double(only_component(imported.triangulation).euler_characteristic())) <= 1e-6);
     const bool is_needle = name == std::string("elephant.off") || name == std::string("femur.off");
     if(is_needle)
       BOOST_TEST(chosen.maximum_log_scale_factor <= 0.5 * zero.maximum_log_scale_factor);
