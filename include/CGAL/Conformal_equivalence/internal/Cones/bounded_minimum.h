@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -106,7 +107,7 @@ private:
     if(b.size() == 0)
       return b;
     const double rounding = 4 * double(b.size()) * std::numeric_limits<double>::epsilon();
-    const Eigen::VectorXd least = (size.array() + rounding * size.maxCoeff() + std::numeric_limits<double>::min()) * rounding;
+    const Eigen::VectorXd least = (size.array() + rounding * size.maxCoeff() + (std::numeric_limits<double>::min)()) * rounding;
     k.diagonal() = k.diagonal().cwiseMax(0.) + least;
     const Eigen::VectorXd scale = k.diagonal().cwiseSqrt().cwiseInverse();
     return scale.asDiagonal() * (scale.asDiagonal() * k * scale.asDiagonal()).ldlt().solve(scale.asDiagonal() * b);
@@ -138,7 +139,7 @@ private:
   bool let_go(const Eigen::VectorXd& slope, const Eigen::VectorXd& x)
   {
     const double largest = k_.diagonal().maxCoeff(), rounding = std::numeric_limits<double>::epsilon();
-    const Eigen::VectorXd size = k_.diagonal().cwiseMax(rounding * rounding * largest + std::numeric_limits<double>::min()).cwiseSqrt();
+    const Eigen::VectorXd size = k_.diagonal().cwiseMax(rounding * rounding * largest + (std::numeric_limits<double>::min)()).cwiseSqrt();
     const double tiny = 1e-9 * slope.cwiseQuotient(size).cwiseAbs().maxCoeff();
     Index up = -1, down = -1, open = -1; // of the sum: at the least value with the least slope, at the most with the largest; one that is free
     for(Index i = 0; i < x.size(); ++i)
