@@ -133,8 +133,9 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 /// growing p. The derivative by a curvature anywhere on the surface says where another cone helps most, and where to move those that are there (in
 /// the spirit of Soliman, Slepcev and Crane, "Optimal Cone Singularities for Conformal Flattening", 2018). When this gains no more, the metric
 /// with these cones is solved for. Where it is worse than foreseen the Laplacian is made anew there, and the cones are moved again. What is
-/// returned is the best metric that was solved for. Where that is still worse by a quarter than what was foreseen at first, as may be where edges have
-/// to be flipped by the thousands, cones with u = 0 are placed as well (see below), and the better one is returned. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
+/// returned is the best metric that was solved for. Where that is worse by more than a quarter than what was foreseen at first, as may be where
+/// edges are flipped by the thousands, cones with u = 0 are placed as well (see below), and the better one is returned. Angles are between pi / 4
+/// and 4 pi, if Gauss and Bonnet's formula allows.
 ///
 /// With an `angle_quantum` and `Cone_measure::ROOT_MEAN_SQUARE_U` the curvatures are multiples of it, those of a closest vector in the lattice
 /// with the Gram matrix of the columns; then the cones move with these, and multiples are chosen anew.
@@ -149,6 +150,8 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///  - *Locally*: single cones are moved to vertices nearby, always where most is gained, as long as that makes it better.
 ///  - *Rounded*, if there is an `angle_quantum`: the angles become positive multiples of it, with the least possible largest error among those which
 ///    Gauss and Bonnet's formula allows. A cone with the angle 2 pi is none any more. The others are moved locally again, now with these angles.
+///    Unless `Cone_angles::ZERO_U` is asked for, other multiples, the closest vectors for p-norms of u, and other places are tried from there, and
+///    taken if the metric is better.
 ///
 /// All of this uses one factorization; the metric with the cones found is then solved for to full precision. Where nothing determines the scale of a
 /// closed surface, u is such that the largest |u| is least, or, with `Cone_measure::ROOT_MEAN_SQUARE_U`, that its mean is 0.

@@ -87,7 +87,7 @@ public:
   // will not be less than `worth`.
   void fit(Curved_cones& s, double worth = std::numeric_limits<double>::infinity())
   {
-    Columns x = columns(s);
+    const Columns x = columns(s);
     Guess y;
     if(exponent_ > 2 && can_go_on(s))
       start(unknowns(s), exponent_, x, y);
@@ -96,7 +96,7 @@ public:
       start(least_squares(x), exponent_ > 2 ? 4 : 2, x, y);
       for(int p = 4; p < exponent_; p *= 2)
       {
-        improve(p, 1e-2, 0, x, y);
+        improve(p, 0.1, std::numeric_limits<double>::infinity(), x, y); // only a place to begin
         judge(2 * p, y);
       }
     }

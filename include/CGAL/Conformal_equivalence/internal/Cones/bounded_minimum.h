@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -76,10 +77,11 @@ private:
     const Index n = Index(open.size());
     const auto part = [&](Index i) { return pivot >= 0 && is_in_sum_[std::size_t(i)] ? 1. : 0.; };
     Eigen::MatrixXd k(n, n);
-    Eigen::VectorXd b(n);
+    Eigen::VectorXd b(n), size(n); // of what the diagonal is a difference of
     for(Index i = 0; i < n; ++i)
     {
       const Index v = open[std::size_t(i)];
+      size[i] = k_(v, v) + (pivot < 0 ? 0 : part(v) * k_(pivot, pivot));
       b[i] = pivot < 0 ? slope[v] : slope[v] - part(v) * slope[pivot];
       for(Index j = 0; j <= i; ++j)
       {
@@ -88,7 +90,7 @@ private:
           : k_(v, w) - part(v) * k_(pivot, w) - part(w) * k_(v, pivot) + part(v) * part(w) * k_(pivot, pivot);
       }
     }
-    const Eigen::VectorXd d = -scaled_solution(k, b);
+    const Eigen::VectorXd d = -scaled_solution(k, b, size);
     Eigen::VectorXd result = Eigen::VectorXd::Zero(slope.size());
     for(Index i = 0; i < n; ++i)
     {
@@ -99,18 +101,16 @@ private:
     return result;
   }
 
-  // Of k x = b; what k does not determine up to roundings is small.
-  static Eigen::VectorXd scaled_solution(const Eigen::MatrixXd& k, const Eigen::VectorXd& b)
+  // Of k x = b. What k does not determine up to its roundings is very long: a bound will be met.
+  static Eigen::VectorXd scaled_solution(Eigen::MatrixXd k, const Eigen::VectorXd& b, const Eigen::VectorXd& size)
   {
     if(b.size() == 0)
       return b;
-    const double largest = k.diagonal().maxCoeff(), rounding = std::numeric_limits<double>::epsilon();
-    if(!(largest > 0))
-      return Eigen::VectorXd::Zero(b.size());
-    const Eigen::VectorXd scale = k.diagonal().cwiseMax(rounding * rounding * largest).cwiseSqrt().cwiseInverse();
-    Eigen::MatrixXd m = scale.asDiagonal() * k * scale.asDiagonal();
-    m.diagonal().array() += 4 * double(b.size()) * rounding;
-    return scale.asDiagonal() * m.ldlt().solve(scale.asDiagonal() * b);
+    const double rounding = 4 * double(b.size()) * std::numeric_limits<double>::epsilon();
+    const Eigen::VectorXd least = (size.array() + rounding * size.maxCoeff() + (std::numeric_limits<double>::min)()) * rounding;
+    k.diagonal() = k.diagonal().cwiseMax(0.) + least;
+    const Eigen::VectorXd scale = k.diagonal().cwiseSqrt().cwiseInverse();
+    return scale.asDiagonal() * (scale.asDiagonal() * k * scale.asDiagonal()).ldlt().solve(scale.asDiagonal() * b);
   }
 
   // As far as the bounds allow. Returns whether they allow all.
@@ -139,7 +139,7 @@ private:
   bool let_go(const Eigen::VectorXd& slope, const Eigen::VectorXd& x)
   {
     const double largest = k_.diagonal().maxCoeff(), rounding = std::numeric_limits<double>::epsilon();
-    const Eigen::VectorXd size = k_.diagonal().cwiseMax(rounding * rounding * largest + std::numeric_limits<double>::min()).cwiseSqrt();
+    const Eigen::VectorXd size = k_.diagonal().cwiseMax(rounding * rounding * largest + (std::numeric_limits<double>::min)()).cwiseSqrt();
     const double tiny = 1e-9 * slope.cwiseQuotient(size).cwiseAbs().maxCoeff();
     Index up = -1, down = -1, open = -1; // of the sum: at the least value with the least slope, at the most with the largest; one that is free
     for(Index i = 0; i < x.size(); ++i)
