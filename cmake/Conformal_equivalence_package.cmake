@@ -26,8 +26,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libconformal-equivalence-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_DESCRIPTION "${PROJECT_DESCRIPTION}: headers
- C++ headers, with CGAL, that flatten triangle meshes of any topology, and map them to the sphere and to the disk.")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "C++ headers, with CGAL, that flatten triangle meshes of any topology, and map them to the sphere and to the disk.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libcgal-dev (>= 5.5), libeigen3-dev (>= 3.3), libgmp-dev, libmpfr-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libsuitesparse-dev, libmetis-dev, libtbb-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "flatten-mesh, conformal-equivalence-doc")
@@ -37,8 +36,7 @@ endif()
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME flatten-mesh)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "flatten triangle meshes by discrete conformal maps
- Gives meshes texture coordinates that keep angles, with seams that cannot be seen if asked for.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "The program flatten_mesh gives meshes texture coordinates that keep angles, with seams that cannot be seen if asked for.")
 find_program(CONFORMAL_EQUIVALENCE_SHLIBDEPS dpkg-shlibdeps)
 mark_as_advanced(CONFORMAL_EQUIVALENCE_SHLIBDEPS)
 if(CONFORMAL_EQUIVALENCE_SHLIBDEPS) # what the program is linked with, as Debian calls it
@@ -47,7 +45,7 @@ endif()
 
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME conformal-equivalence-doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
-set(CPACK_DEBIAN_DOC_DESCRIPTION "${PROJECT_DESCRIPTION}: manual")
+set(CPACK_DEBIAN_DOC_DESCRIPTION "The manual.")
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 
 include(CPack)
