@@ -30,7 +30,7 @@ struct Texture_of_layout
 // glTF 2.0 (Khronos 2021) in one binary file: the triangles in single precision, with the layout as texture coordinates that fit the texture, which
 // is in the file. TEXCOORD_0 is `repetitions` times (u, v), or the coordinates (a, b) of the hexagonal lattice, with 1 less the second one, as glTF
 // counts from the top. If `has_weights`, the weight of each vertex is the attribute _WEIGHT. Colours of the vertices of the file, if there are any,
-// are COLOR_0, in linear light. Throws a `Failure` that names `name` if a number is not finite in single precision, or there are more bytes than 2^32.
+// are COLOR_0, in linear light. Throws a `Failure` that names `name` if a number is not finite in single precision, or the file is too large.
 bool write_GLB(std::ostream& out, const Given_surface& given, const Split_surface& surface, const Texture_of_layout& texture, bool has_weights,
                const std::string& name);
 
