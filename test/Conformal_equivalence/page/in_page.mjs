@@ -84,10 +84,10 @@ export function pick_everywhere()
 {
   const page = flatten_mesh_page, result = { hits: 0, misses: 0, largest_error: 0 };
   for(const view of page.views)
-    for(let i = .5; i < 12; ++i)
-      for(let j = .5; j < 12; ++j)
+    for(let i = .5; i < 8; ++i)
+      for(let j = .5; j < 8; ++j)
       {
-        const x = i / 12 * view.element.clientWidth, y = j / 12 * view.element.clientHeight, mark = page.find(view, { x, y });
+        const x = i / 8 * view.element.clientWidth, y = j / 8 * view.element.clientHeight, mark = page.find(view, { x, y });
         if(! mark)
         {
           ++result.misses;

@@ -44,10 +44,11 @@ export class Histogram
     return x >= w - end_width ? number_of_bars : Math.min(number_of_bars - 1, Math.floor((x - end_width) / (w - 2 * end_width) * number_of_bars));
   }
 
+  // The values of a bar, from and to.
   bounds(bar)
   {
     const [low, high] = this.quantity.range, at = i => low + (high - low) * i / number_of_bars;
-    return [bar < 0 ? -3e38 : at(bar), bar >= number_of_bars ? 3e38 : at(bar + 1)].map((x, k) => bar < 0 && k ? low : bar >= number_of_bars && ! k ? high : x);
+    return bar < 0 ? [-3e38, low] : bar >= number_of_bars ? [high, 3e38] : [at(bar), at(bar + 1)];
   }
 
   choose(bar)
@@ -84,11 +85,6 @@ export class Histogram
     this.output.textContent = `${where}: ${n} ${n === 1 ? "triangle" : "triangles"}`;
   }
 
-  color(t)
-  {
-    return this.palette.at(t);
-  }
-
   draw()
   {
     const { canvas, quantity } = this, ratio = devicePixelRatio || 1, w = canvas.clientWidth, h = canvas.clientHeight;
@@ -109,7 +105,7 @@ export class Histogram
       g.fillRect(x, room - height, width, height);
     };
     for(let i = 0; i < number_of_bars; ++i)
-      bar(end_width + i * step, step + .3, counts[i], this.color((i + .5) / number_of_bars), i);
+      bar(end_width + i * step, step + .3, counts[i], this.palette.at((i + .5) / number_of_bars), i);
     if(below)
       bar(0, end_width - 3, below, this.palette.under, -1);
     if(above)

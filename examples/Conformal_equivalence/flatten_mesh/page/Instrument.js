@@ -219,10 +219,10 @@ export class Instrument
       ["Triangle", String(data.face_numbers.length ? data.face_numbers[face] : face)],
       ["u", quantities.u.text(quantities.u.of(face))],
       ["Area factor", quantities.area.text(quantities.area.of(face))],
-      ["Quasi-conformal factor", number_text(quantities["quasi-conformal"].of(face))],
-      ["Point of the surface", original(mark.on_surface, data.surfaceCentre, data.surfaceRadius, 3)],
-      ["Point of the layout", original(mark.on_layout, data.centre, data.radius, 2)],
-      ...(cone ? [["Cone at a corner", `${number_text(cone.angle)}\u00b0, vertex ${cone.vertex}`]] : [])
+      ["Quasi-conformal", number_text(quantities["quasi-conformal"].of(face))],
+      ["Surface", original(mark.on_surface, data.surfaceCentre, data.surfaceRadius, 3)],
+      ["Layout", original(mark.on_layout, data.centre, data.radius, 2)],
+      ...(cone ? [["Cone", `${number_text(cone.angle)}\u00b0, vertex ${cone.vertex}`]] : [])
     ];
   }
 
