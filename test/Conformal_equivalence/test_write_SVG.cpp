@@ -849,6 +849,7 @@ BOOST_AUTO_TEST_CASE(colours_are_for_most_values)
   const Range few({0, 3.14159, 7.5});
   BOOST_TEST(few.lower == 0.);
   BOOST_TEST(few.upper == 7.5);
+  BOOST_TEST(! std::signbit(Range({-7.5, -.01}).upper)); // zero, which is written without a sign
   const Range one({.123456789});
   BOOST_TEST((one.lower == .123456789 && one.upper == .123456789));
   BOOST_TEST(one.parameter(.123456789) == .5);

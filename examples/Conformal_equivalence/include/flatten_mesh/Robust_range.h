@@ -53,7 +53,7 @@ private:
     if(! (width > 0) || ! std::isfinite(width))
       return;
     const double power = std::pow(10., std::floor(std::log10(width)) - 1);
-    const double low = std::floor(lower / power) * power, high = std::ceil(upper / power) * power;
+    const double low = std::floor(lower / power) * power + 0., high = std::ceil(upper / power) * power + 0.; // no -0
     if(std::isfinite(low) && low <= lower && std::isfinite(high) && high >= upper) // otherwise numbers are too far apart, or too near
     {
       lower = low;
