@@ -228,6 +228,9 @@ def widths(folder, chromium):
                                   '--user-data-dir=' + profile, '--window-size=1280,900', '--virtual-time-budget=600000',
                                   '--dump-dom', 'file://' + path],
                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=300).stdout.decode()
+    except subprocess.TimeoutExpired:
+        print('SKIPPED: the pages could not be measured within five minutes')
+        return
     finally:
         os.remove(path)
     result = re.search(r'<pre id="result">(.*?)</pre>', dom, re.S)
