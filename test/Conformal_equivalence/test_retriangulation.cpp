@@ -698,8 +698,9 @@ BOOST_AUTO_TEST_CASE(factors_of_any_exponent)
     if(left != right)
       BOOST_REQUIRE_EQUAL(d.value, left > right ? 1. : -1.);
     // one power of two for all of them does not matter
+    const auto shifted = [&](double s) { return wide(Scaled(s, i)); };
     const CEi::Quad<CEi::Scaled_number<Double_double> > near_one{wide(q.e), wide(q.a), wide(q.b), wide(q.c), wide(q.d),
-                                                                 wide(Scaled(q.i, i)), wide(Scaled(q.j, i)), wide(Scaled(q.k, i)), wide(Scaled(q.l, i))};
+                                                                 shifted(q.i), shifted(q.j), shifted(q.k), shifted(q.l)};
     CEi::Relative_difference f, g;
     BOOST_REQUIRE(CEi::filtered_difference(near_one, f) && CEi::filtered_difference(converted<Double_double>(q), g));
     BOOST_TEST(std::fabs(f.value - g.value) <= f.error + g.error);

@@ -8,8 +8,8 @@
 //                               only the row of the seamless map: 4 cones for a disk and 8 for a sphere, unless others are given
 //   paper_table --place N [CONES]
 //                               the time to place cones, 8 of them, on a terrain of N vertices, and that of one plain solve
-//   paper_table --cones MESH...  what 4, 8 and 16 cones leave of u, and how long it takes to place them: with u = 0 at the cones, as in the paper, and with
-//                               angles that are chosen with the places, for the largest |u| and for the root mean square of u
+//   paper_table --cones MESH... what 4, 8 and 16 cones leave of u, and how long it takes to place them: with u = 0 at the cones, as in the paper,
+//                               and with angles that are chosen with the places, for the largest |u| and for the root mean square of u
 //   paper_table --header        the head of the table of rows
 //
 // MESH is the name of a file or a specification of benchmark_meshes.h. Ends with status 2, without a row, if it cannot be read as a
