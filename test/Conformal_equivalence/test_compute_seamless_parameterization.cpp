@@ -532,6 +532,8 @@ BOOST_AUTO_TEST_CASE(the_laplace_layout_of_the_flat_positions_is_the_breadth_fir
         largest = (std::max)(largest, std::abs(z[v] - r.normalized_corners()[r.polygon().first_corner[v]]));
       BOOST_TEST(largest <= laplace_error);
       const Coefficients& flat_ones = r.choice().flat_coefficients();
+      if(r.positions().rank() == 1) // all of the energy is rounding: there is no other layout
+        continue;
       const double energy = std::abs((flat_ones.adjoint() * r.choice().energy() * flat_ones)(0));
       BOOST_TEST(energy <= laplace_error * r.choice().energy().norm() * flat_ones.squaredNorm());
     }

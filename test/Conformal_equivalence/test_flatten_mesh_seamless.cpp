@@ -258,7 +258,7 @@ BOOST_AUTO_TEST_CASE(many_seamless_surfaces)
   const checking::Surface given = checking::read_surface(input);
   for(const std::string quantum : {"90", "60"})
   {
-    const std::vector<std::string> options = {"--cones", "auto=3", "--tiles", "200", "--quantize", quantum, "--lattice-coordinates"};
+    const std::vector<std::string> options = {"--cones", "auto=3", "--tiles", "5000", "--quantize", quantum, "--lattice-coordinates"};
     const Run r = run(with({input, "-o", folder / "o.obj", "--seamless", "--quiet"}, options));
     BOOST_TEST_REQUIRE(r.status == 0, r.err);
     const checking::Surface layout = checking::read_surface(folder / "o.obj");

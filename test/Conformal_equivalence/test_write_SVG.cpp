@@ -9,7 +9,7 @@
 #include "include/flattened_meshes.h"
 #include "include/tolerances.h"
 
-#include "../../examples/Conformal_equivalence/include/flatten_mesh/write_HTML.h"
+#include "../../examples/Conformal_equivalence/include/flatten_mesh/page_data.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/write_SVG.h"
 
 #include <CGAL/Polyhedron_3.h>
@@ -704,63 +704,38 @@ BOOST_AUTO_TEST_CASE(another_model_of_a_mesh)
 // The page: every place of a vertex in the layout has texture coordinates of its own
 // ------------------------------------------------------------------------------------------------
 
-namespace {
-
-std::vector<unsigned char> decoded(const std::string& text)
-{
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<unsigned char> bytes;
-  std::uint32_t bits = 0;
-  int n = 0;
-  for(char c : text)
-  {
-    if(c == '=')
-      break;
-    bits = bits << 6 | std::uint32_t(digits.find(c));
-    n += 6;
-    if(n >= 8)
-      bytes.push_back(static_cast<unsigned char>(bits >> (n -= 8) & 255));
-  }
-  return bytes;
-}
-
-template <typename T>
-std::vector<T> array_in_page(const std::string& page, const std::string& name)
-{
-  const std::size_t begin = page.find(name + " = bytes(\"") + name.size() + 10;
-  const std::vector<unsigned char> bytes = decoded(page.substr(begin, page.find('"', begin) - begin));
-  std::vector<T> result(bytes.size() / sizeof(T));
-  std::memcpy(result.data(), bytes.data(), result.size() * sizeof(T));
-  return result;
-}
-
-} // namespace
-
 BOOST_AUTO_TEST_CASE(the_page_of_a_cube)
 {
   const Unfolded surface = cube();
-  flattening::HTML_options options;
-  options.svg.square = .5;
-  std::ostringstream out;
-  BOOST_TEST(flattening::write_HTML(out, surface.mesh, surface.uv, boost::static_property_map<double, Face>(1.), options));
-  const std::string page = out.str();
-  BOOST_TEST(drawn_seams(page).size() == 7u);
-  BOOST_TEST(drawn_cones(page).size() == 8u);
+  const flattening::Page_data page(surface.mesh, surface.uv, boost::static_property_map<double, Mesh::Vertex_index>(.5), surface.mesh.points(),
+                                   CGAL::internal_np::Param_not_found(), std::vector<bool>());
+  BOOST_TEST(page.points.size() == 3u * 14u);
+  BOOST_TEST(page.u.size() == 14u);
+  BOOST_TEST(page.seams.size() == 5u * 7u);
+  BOOST_TEST(page.border.empty());
+  BOOST_TEST(page.weights.empty());
+  BOOST_TEST_REQUIRE(page.layout.size() == 2u * 14u);
+  BOOST_TEST_REQUIRE(page.triangles.size() == 3u * 12u);
 
-  const std::vector<float> points = array_in_page<float>(page, "points"), texture = array_in_page<float>(page, "texture");
-  const std::vector<std::uint32_t> triangles = array_in_page<std::uint32_t>(page, "triangles");
-  BOOST_TEST(points.size() == 3u * 14u);
-  BOOST_TEST_REQUIRE(texture.size() == 3u * 14u);
-  BOOST_TEST_REQUIRE(triangles.size() == 3u * 12u);
-  std::size_t i = 0;
-  for(Face f : surface.mesh.faces()) // each triangle has the texture of its own side of a seam
+  const double rounding = std::numeric_limits<float>::epsilon() * page.layout_radius; // of coordinates in [-1, 1]
+  const auto is_place = [&](std::uint32_t corner, const auto& p)
   {
-    const Halfedge h = surface.mesh.halfedge(f);
-    const float *a = &texture[3 * triangles[i]], *b = &texture[3 * triangles[i + 1]];
-    BOOST_TEST(double(b[0] - a[0]) == 2 * (surface.uv[surface.mesh.next(h)].x() - surface.uv[h].x()));
-    BOOST_TEST(double(b[1] - a[1]) == 2 * (surface.uv[surface.mesh.next(h)].y() - surface.uv[h].y()));
-    i += 3;
-  }
+    const double x = page.layout_centre[0] + page.layout_radius * double(page.layout[2 * corner]);
+    const double y = page.layout_centre[1] + page.layout_radius * double(page.layout[2 * corner + 1]);
+    return std::abs(x - p.x()) <= rounding && std::abs(y - p.y()) <= rounding;
+  };
+  std::size_t i = 0;
+  for(Face f : surface.mesh.faces()) // each triangle has the layout of its own side of a seam
+    for(Halfedge h : CGAL::halfedges_around_face(surface.mesh.halfedge(f), surface.mesh))
+      BOOST_TEST(is_place(page.triangles[i++], surface.uv[h]));
+
+  BOOST_TEST_REQUIRE(page.cones.size() == 8u);
+  for(const flattening::Page_data::Cone& cone : page.cones)
+    BOOST_TEST(std::abs(cone.angle - 1.5 * CGAL_PI) < 1e-12); // three right angles
+  for(double factor : page.quasi_conformal_factor.range()) // the layout is isometric
+    BOOST_TEST(std::abs(factor) < 1e-12);
+  for(double factor : page.area_factor.range())
+    BOOST_TEST(std::abs(factor - page.area_factor.range()[0]) < 1e-12);
 }
 
 // ------------------------------------------------------------------------------------------------

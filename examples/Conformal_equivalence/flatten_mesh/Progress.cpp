@@ -102,8 +102,9 @@ void Progress_visitor::on_iteration(std::size_t iteration, double residual)
   progress->show(text(": Newton step ", iteration, ", residual ", residual), (std::max)(0., part));
 }
 
-void Progress_visitor::on_progress(CGAL::Conformal_equivalence::Stage, std::size_t number, double measure)
+void Progress_visitor::on_progress(CGAL::Conformal_equivalence::Stage stage, std::size_t number, double measure)
 {
+  progress->begin(CGAL::Conformal_equivalence::stage_name(stage)); // the search may have solved for a metric in between
   progress->show(text(": ", number, number == 1 ? " cone, " : " cones, ", measure), -1);
 }
 

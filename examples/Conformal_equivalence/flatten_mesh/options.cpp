@@ -86,7 +86,7 @@ po::options_description visible_options()
     ("max-rms", word("E"), "with --cones auto, cones are placed until the area-weighted root mean square of u, less its mean, "
        "is at most E")
     ("cone-measure", word("max|rms|area"), "what --cones auto makes small: the largest |u|, the root mean square of u, or the "
-       "largest factor between areas; by default what is bounded, or max")
+       "largest factor between areas; by default what is bounded, or, with --seamless, rms, and else max")
     ("quantize", word("[DEGREES]"), "the angles of cones are multiples of this one, 360 / n (90 if none "
        "is given): those of --cones auto are rounded, those of a file have to be")
     ("seamless", po::bool_switch(), "the layout is scaled, turned and deformed as little as it takes, so that a texture of tiles fits across the "

@@ -105,7 +105,9 @@ struct Loop_turning
 ///   \cgalParamNBegin{maximum_area_distortion} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
 ///   \cgalParamNBegin{maximum_root_mean_square} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
 ///   \cgalParamNBegin{cone_angles} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
-///   \cgalParamNBegin{cone_measure} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
+///   \cgalParamNBegin{cone_measure} \cgalParamDescription{as in `place_cones()`}
+///     \cgalParamDefault{that of the bound given; without any, `Cone_measure::ROOT_MEAN_SQUARE_U`, with which more layouts are injective}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{number_of_sweeps} \cgalParamDescription{as in `place_cones()`} \cgalParamNEnd
 ///   \cgalParamNBegin{cone_angle_map}
 ///     \cgalParamDescription{the angle sums of the inner vertices, if cones are not to place themselves: multiples of the quantum}

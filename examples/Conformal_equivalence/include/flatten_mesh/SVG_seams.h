@@ -54,6 +54,7 @@ class SVG_seams
   typedef Layout_seams<TriangleMesh, HalfedgeUVMap>                        Seams;
 
   static constexpr double shortest_side_with_number = 30;
+  static constexpr double farthest_number = 1e9; // where no drawing is
 
 public:
   SVG_seams(const SVG_frame& frame, const TriangleMesh& tm, const HalfedgeUVMap& uv, bool with_seams, bool with_cones)
@@ -132,7 +133,8 @@ private:
       if(rest <= l)
       {
         const double t = l > 0 ? rest / l : 0;
-        return Point{{ e.first[0] + t * (e.second[0] - e.first[0]), e.first[1] + t * (e.second[1] - e.first[1]) }};
+        const Point place{{ (1 - t) * e.first[0] + t * e.second[0], (1 - t) * e.first[1] + t * e.second[1] }};
+        return std::hypot(place[0], place[1]) < farthest_number ? std::optional<Point>(place) : std::nullopt;
       }
       rest -= l;
     }

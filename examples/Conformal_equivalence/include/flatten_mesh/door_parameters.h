@@ -57,6 +57,7 @@ inline CE::Cone_measure measure_of_bounds(const Options& options)
   return options.maximum_log_scale_factor > 0 ? CE::Cone_measure::MAXIMUM_U
        : options.maximum_area_distortion > 0  ? CE::Cone_measure::AREA_DISTORTION
        : options.maximum_root_mean_square > 0 ? CE::Cone_measure::ROOT_MEAN_SQUARE_U
+       : options.seamless                     ? CE::Cone_measure::ROOT_MEAN_SQUARE_U
                                               : CE::Cone_measure::MAXIMUM_U;
 }
 

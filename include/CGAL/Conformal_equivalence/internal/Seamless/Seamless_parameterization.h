@@ -204,6 +204,8 @@ private:
     {
       Cone_options options = read_cone_options(np);
       options.angle_quantum = options_.angle_quantum;
+      if(parameters::is_default_parameter<NamedParameters, internal_np::conformal_cone_measure_t>::value && !options.has_bound())
+        options.measure = Cone_measure::ROOT_MEAN_SQUARE_U; // where u is even, tiles fit nearly everywhere: fewer triangles are turned over
       take(place_cones_with(flattening.mesh.triangulation, options, np));
     }
     else
