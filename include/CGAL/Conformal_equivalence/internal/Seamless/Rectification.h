@@ -234,19 +234,38 @@ private:
     for(int finer = 0; finer < most_refinements; ++finer)
     {
       const std::vector<Candidate> c = choice_->candidates(std::ldexp(options_.number_of_tiles, finer));
-      for(std::size_t i = 0; i < c.size() && i < most_tried; ++i)
-        if(try_candidate(c[i]))
-          return prove(c[i]);
+      for(const bool is_strict : {true, false}) // triangles that go around a vertex once too often are better than nothing
+      {
+        seamless_.set_strict(is_strict);
+        for(std::size_t i = 0; i < c.size() && i < most_tried; ++i)
+          if(try_candidate(c[i]))
+            return prove(c[i]);
+      }
     }
     refuse_inverted();
   }
 
-  // As few tiles as the bound on the mean distortion allows.
+  // As few tiles as the bound on the mean distortion allows. (Triangles that go around a vertex once too often are better than nothing.)
   void deform_within_bound()
+  {
+    bool is_found = false;
+    for(const bool is_strict : {true, false})
+    {
+      seamless_.set_strict(is_strict);
+      if((is_strict || !is_found) && search_within_bound(is_found))
+        return;
+    }
+    if(!is_found)
+      return refuse_inverted();
+    result_.status = Status::BOUND_NOT_MET;
+    result_.amount = result_.tiling.mean_distortion;
+  }
+
+  // Returns whether the bound is met; `is_found`: whether there is a layout at all.
+  bool search_within_bound(bool& is_found)
   {
     const std::size_t most_tried = 2; // the next number of tiles comes soon
     const double most_tiles = 1e9;    // so that lattice points stay far below the range in which seams are exact
-    bool is_found = false;
     for(double tiles = 1; tiles < most_tiles; tiles *= std::sqrt(2.))
     {
       const std::vector<Candidate> c = choice_->candidates(tiles);
@@ -260,13 +279,10 @@ private:
         if(is_within_bound())
           prove(c[i]);
         if(is_within_bound())
-          return;
+          return true;
       }
     }
-    if(!is_found)
-      return refuse_inverted();
-    result_.status = Status::BOUND_NOT_MET;
-    result_.amount = result_.tiling.mean_distortion;
+    return false;
   }
 
   // Looks longer than before for positions closer to what was aimed at than those that were taken; most often proves that there are none.
@@ -367,6 +383,7 @@ private:
   void report()
   {
     result_.layout.length_error = flat_.length_error;
+    result_.tiling.number_of_wound_vertices = seamless_.wound_vertices(result_.layout).size();
     find_transitions();
     measure();
   }

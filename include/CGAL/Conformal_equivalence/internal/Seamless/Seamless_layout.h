@@ -11,6 +11,7 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Number_constants.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Texture_lattice.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Meta_polygon.h>
@@ -45,6 +46,25 @@ public:
                   bool is_lattice_coordinates)
     : t_(t), polygon_(polygon), lattice_(lattice), cones_(cones), is_lattice_coordinates_(is_lattice_coordinates)
   {}
+
+  // Is a layout refused in which positive triangles go around a vertex once too often, or not often enough? (Those around it then count as inverted.)
+  void set_strict(bool is_strict) { is_strict_ = is_strict; }
+
+  // Those vertices inside the surface: angles around them do not add up to what they should, but differ by full turns.
+  std::vector<Index> wound_vertices(const Layout<double>& layout) const
+  {
+    const double turn = 2 * Number_constants<double>::pi();
+    std::vector<double> excess(t_.number_of_vertices(), -turn);
+    for(const Quantized_cone& cone : cones_)
+      excess[cone.vertex] = -turn * double(cone.quanta) / double(lattice_.symmetry());
+    for(Index h = 0; h < t_.number_of_halfedges(); ++h)
+      excess[t_.target(h)] += angle(layout, h);
+    std::vector<Index> result;
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      if(!t_.is_isolated_vertex(v) && !t_.is_border_vertex(v) && std::abs(excess[v]) > turn / 2)
+        result.push_back(v);
+    return result;
+  }
 
   // The triangles that were not positive when something was last laid out in vain, some of them twice.
   const std::vector<Index>& inverted() const { return inverted_; }
@@ -88,6 +108,8 @@ private:
       result.corner[h] = {{w.real(), w.imag()}};
     }
     find_inverted(result);
+    if(inverted_.empty() && is_strict_)
+      add_triangles_around(wound_vertices(result));
     return inverted_.empty();
   }
 
@@ -148,6 +170,28 @@ private:
         inverted_.push_back(f);
   }
 
+  void add_triangles_around(const std::vector<Index>& vertices)
+  {
+    std::vector<char> is_there(t_.number_of_vertices(), 0);
+    for(Index v : vertices)
+      is_there[v] = 1;
+    for(Index h = 0; h < t_.number_of_halfedges(); ++h)
+      if(is_there[t_.target(h)])
+        inverted_.push_back(h / 3);
+  }
+
+  // At the target of h, of a triangle that is positive.
+  double angle(const Layout<double>& result, Index h) const
+  {
+    const auto place = [&](Index corner)
+    {
+      const auto& p = result.corner[corner];
+      return is_lattice_coordinates_ ? lattice_.to_plane(p) : Complex(p[0], p[1]);
+    };
+    const Complex apex = place(h);
+    return std::abs(std::arg((place(t_.previous(h)) - apex) * std::conj(place(t_.next(h)) - apex)));
+  }
+
   // Around triangles that are inverted. Where more are needed, another choice of positions is as good a layout, and found sooner.
   static constexpr int most_rings = 1;
 
@@ -156,6 +200,7 @@ private:
   const Texture_lattice& lattice_;
   const std::vector<Quantized_cone>& cones_;
   const bool is_lattice_coordinates_;
+  bool is_strict_ = false;
   std::vector<Index> inverted_;
 };
 
