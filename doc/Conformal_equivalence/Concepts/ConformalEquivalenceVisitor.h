@@ -29,6 +29,7 @@ public:
 
   /// is called in stages that take long, whenever they have come further: in `CGAL::Conformal_equivalence::Stage::PLACE`, the only one so far,
   /// after each cone. A visitor need not have this function.
+  /// \param stage which it is
   /// \param number how many cones are placed by now
   /// \param measure the measure that is made small (`CGAL::Conformal_equivalence::Cone_measure`), as the search sees it with these cones: before
   ///        they are moved to better places, and to first order in u

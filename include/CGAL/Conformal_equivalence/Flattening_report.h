@@ -71,8 +71,8 @@ struct Tiling
   double maximum_distortion = 1; ///< the largest one
   double mean_factor_before = 1; ///< mean quasi-conformal factor, from the mesh, of the conformal layout that was deformed
   double mean_factor = 1;       ///< the same of the result. Means are weighted by the areas of the faces of the mesh
-  std::size_t number_of_wound_vertices = 0; ///< of vertices around which triangles, all of them positive, go a full turn too often, or not often enough:
-                                ///< a coarse mesh has no room for some cones where they lie. Layouts without are preferred; 0 where the cones are as asked for
+  std::size_t number_of_wound_vertices = 0; ///< vertices around which triangles, all of them positive, go a full turn too often, or not
+                                ///< often enough, as a coarse mesh has no room for some cones. Layouts without such vertices are preferred
   bool is_closest = true;       ///< whether the positions of the cones are proven to be those of least distortion for scale and rotation
 };
 
