@@ -25,7 +25,8 @@ export class Browser
     const browser = new Browser();
     browser.profile = mkdtempSync(join(tmpdir(), "page_test_"));
     browser.process = spawn(program, [
-      "--headless=new", "--no-sandbox", "--remote-debugging-pipe", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+      "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--remote-debugging-pipe",
+      "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
       "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-default-apps", "--disable-extensions",
       "--disable-sync", "--hide-scrollbars", "--mute-audio", "--force-color-profile=srgb", `--user-data-dir=${browser.profile}`, ...flags, "about:blank"
     ], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });

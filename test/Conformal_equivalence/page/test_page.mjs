@@ -238,7 +238,10 @@ const begin = Date.now();
 const say = text => console.log(`${((Date.now() - begin) / 1000).toFixed(1)} s: ${text}`);
 try
 {
-  browser = await Browser.start(find_browser());
+  browser = await Browser.start(find_browser()).catch(error => {
+    console.log(`SKIPPED: the browser does not start: ${error.message}`);
+    process.exit(77);
+  });
   watch(browser);
   await browser.set_window(800, 560);
   const disk = make_page("disk", "nefertiti.off", "--cones", "auto=4", "--projective");
