@@ -127,6 +127,17 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
+// Points and faces, and nothing else.
+std::string as_bare_obj(const testing::Soup& soup)
+{
+  std::string obj;
+  for(const auto& p : soup.points)
+    obj += "v " + point(p) + '\n';
+  for(const auto& t : soup.triangles)
+    obj += "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' + std::to_string(t[2] + 1) + '\n';
+  return obj;
+}
+
 std::string as_obj(const Soup& soup)
 {
   std::ostringstream out;
@@ -1246,12 +1257,7 @@ void check_glb(const checking::Glb_file& glb, const Obj& obj, double repetitions
 BOOST_AUTO_TEST_CASE(formats_of_other_programs)
 {
   const Folder folder;
-  std::string closed;
-  for(const auto& p : spiky_icosahedron().points)
-    closed += "v " + point(p) + '\n';
-  for(const auto& t : spiky_icosahedron().triangles)
-    closed += "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' + std::to_string(t[2] + 1) + '\n';
-  const std::vector<std::vector<std::string> > inputs = { { folder.write("closed.obj", closed), "--cones", "auto=4" },
+  const std::vector<std::vector<std::string> > inputs = { { folder.write("closed.obj", as_bare_obj(spiky_icosahedron())), "--cones", "auto=4" },
                                                           { folder.write("grid.off", as_off(bumpy_grid(6))) } };
   for(const std::vector<std::string>& input : inputs)
   {
@@ -1332,12 +1338,7 @@ BOOST_AUTO_TEST_CASE(formats_keep_polygons_and_colours)
 BOOST_AUTO_TEST_CASE(formats_on_the_sphere)
 {
   const Folder folder;
-  std::string obj;
-  for(const auto& p : spiky_icosahedron().points)
-    obj += "v " + point(p) + '\n';
-  for(const auto& t : spiky_icosahedron().triangles)
-    obj += "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' + std::to_string(t[2] + 1) + '\n';
-  const std::string input = folder.write("s.obj", obj);
+  const std::string input = folder.write("s.obj", as_bare_obj(spiky_icosahedron()));
   BOOST_TEST(run({input, "--target", "sphere", "-o", folder / "o.obj", "-o", folder / "o.ply", "-o", folder / "o.glb"}).status == 0);
   const Obj sphere(folder / "o.obj");
   const checking::Ply_file ply(content(folder / "o.ply"));

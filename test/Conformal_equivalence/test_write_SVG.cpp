@@ -20,7 +20,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <map>
@@ -222,18 +221,22 @@ std::vector<Drawn_seam> drawn_seams(const std::string& svg)
   return result;
 }
 
-// how many dots there are of each title
-std::map<std::string, int> drawn_cones(const std::string& svg)
+// how often each text from `begin` to `end` is in the elements of a group
+std::map<std::string, int> counted_texts(const std::string& svg, const std::string& id, const std::string& tag, const std::string& begin,
+                                         const std::string& end)
 {
-  const std::string cones = group(svg, "cones");
+  const std::string elements = group(svg, id);
   std::map<std::string, int> result;
-  for_each_element(cones, "circle", [&](std::size_t i)
+  for_each_element(elements, tag, [&](std::size_t i)
   {
-    const std::size_t begin = cones.find("<title>", i) + 7;
-    ++result[cones.substr(begin, cones.find("</title>", begin) - begin)];
+    const std::size_t from = elements.find(begin, i) + begin.size();
+    ++result[elements.substr(from, elements.find(end, from) - from)];
   });
   return result;
 }
+
+// how many dots there are of each title
+std::map<std::string, int> drawn_cones(const std::string& svg) { return counted_texts(svg, "cones", "circle", "<title>", "</title>"); }
 
 std::vector<double> lengths(const Polyline& line)
 {
@@ -745,17 +748,7 @@ BOOST_AUTO_TEST_CASE(the_page_of_a_cube)
 namespace {
 
 // The numbers beside seams, and how often each is there.
-std::map<std::string, int> seam_numbers(const std::string& svg)
-{
-  const std::string numbers = group(svg, "seam-numbers");
-  std::map<std::string, int> result;
-  for_each_element(numbers, "text", [&](std::size_t i)
-  {
-    const std::size_t begin = numbers.find('>', i) + 1;
-    ++result[numbers.substr(begin, numbers.find('<', begin) - begin)];
-  });
-  return result;
-}
+std::map<std::string, int> seam_numbers(const std::string& svg) { return counted_texts(svg, "seam-numbers", "text", ">", "<"); }
 
 } // namespace
 

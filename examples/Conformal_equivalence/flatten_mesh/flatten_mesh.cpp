@@ -76,13 +76,6 @@ void require_verdict(const Options& options, const Figures& figures)
                                                      : text(": its border overlaps in ", verdict.crossing_borders.size(), " places"));
 }
 
-// Whether an output goes to the standard output, which is then for nothing else.
-bool is_output_in_stream(const Options& options)
-{
-  const std::vector<std::string> files = outputs(options);
-  return std::any_of(files.begin(), files.end(), is_standard_stream);
-}
-
 // What is said beside the figures: what of the file was skipped, or is not written.
 std::vector<std::string> notices(const Options& options, const Given_surface& given, const Result& drawn, const Material_files& beside,
                                  const Figures& figures)

@@ -235,13 +235,12 @@ void run_hyperbolic(const Options& options, Output_files& files, std::ostream& o
   files.commit();
   if(options.quiet)
     return;
-  const std::vector<std::string> written = outputs(options);
-  const bool is_out_taken = std::any_of(written.begin(), written.end(), is_standard_stream);
+  std::ostream& summary = is_output_in_stream(options) ? err : out;
   std::size_t width = 0;
   for(const auto& line : lines)
     width = (std::max)(width, line.first.size());
   for(const auto& line : lines)
-    (is_out_taken ? err : out) << line.first << std::string(width + 2 - line.first.size(), ' ') << line.second << '\n';
+    summary << line.first << std::string(width + 2 - line.first.size(), ' ') << line.second << '\n';
   for(const std::string& notice : given.notices)
     err << "flatten_mesh: " << one_line(text(options.input, ": ", notice)) << std::endl;
 }

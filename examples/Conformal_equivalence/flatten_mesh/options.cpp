@@ -585,9 +585,17 @@ std::vector<std::string> solver_names()
 
 } // namespace
 
-std::vector<std::string> outputs(const Options& options)
+std::vector<std::string*> places_of_outputs(Options& options)
 {
-  return { options.obj, options.glb, options.ply, options.flat, options.dxf, options.svg, options.html, options.report };
+  return { &options.obj, &options.glb, &options.ply, &options.flat, &options.dxf, &options.svg, &options.html, &options.report };
+}
+
+std::vector<std::string> outputs(Options options)
+{
+  std::vector<std::string> names;
+  for(const std::string* name : places_of_outputs(options))
+    names.push_back(*name);
+  return names;
 }
 
 std::string help_text()
@@ -615,6 +623,7 @@ std::vector<Option_entry> option_table()
       entry.value.erase(preset);
     }
     entry.description = option->description();
+    entry.is_repeatable = option->semantic()->is_composing();
     table.push_back(entry);
   }
   return table;

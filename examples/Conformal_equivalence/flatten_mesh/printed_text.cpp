@@ -178,11 +178,11 @@ std::string zsh_completion()
         commands.push_back(c.files ? "_files" : "_files -/");
       value = ":value:" + (commands.empty() ? std::string(" ") : "{ " + joined(commands, "; ") + " }");
     }
-    const std::string times = option.name == "boundary" ? "*" : "";
+    const std::string times = option.is_repeatable ? "*" : "", others = option.is_repeatable ? "*" : "(-" + option.letter + ' ' + name + ")";
     if(option.letter.empty())
       out << "  '" << times << name << description << value << "' \\\n";
     else
-      out << "  '(-" << option.letter << ' ' << name << ")'{-" << option.letter << ',' << name << "}'" << description << value << "' \\\n";
+      out << "  '" << others << "'{-" << option.letter << ',' << name << "}'" << description << value << "' \\\n";
   }
   out << "  '*:input:_files'\n";
   return out.str();

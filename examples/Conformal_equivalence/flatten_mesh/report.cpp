@@ -219,11 +219,8 @@ void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, 
   out << options.input << '\n';
   for(const auto& line : summary(options, mesh, figures))
     out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
-  Options told(options);
-  if(options.is_report_joint)
-    told.report.clear();
-  for(const std::string& file : outputs(told))
-    if(! file.empty() && file != "-")
+  for(const std::string& file : outputs(options))
+    if(! file.empty() && file != "-" && ! (options.is_report_joint && file == options.report))
       out << "  wrote " << file << '\n';
 }
 

@@ -84,7 +84,7 @@ Options options_of_input(const Options& all, std::size_t i)
   Options options = all;
   options.input = all.inputs[i];
   options.is_report_joint = all.inputs.size() > 1 && ! all.report.empty() && ! names_input(all.report);
-  for(std::string* file : {&options.obj, &options.glb, &options.ply, &options.flat, &options.dxf, &options.svg, &options.html, &options.report})
+  for(std::string* file : places_of_outputs(options))
     *file = with_name(*file, name_of_input(options.input));
   return options;
 }

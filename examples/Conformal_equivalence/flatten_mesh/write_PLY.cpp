@@ -6,6 +6,11 @@
 #include "../include/flatten_mesh/layout_outline.h"
 #include "../include/flatten_mesh/Written_faces.h"
 
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+
+#include <boost/property_map/function_property_map.hpp>
+#include <boost/property_map/property_map.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -21,32 +26,14 @@ namespace {
 std::vector<std::uint32_t> charts(const Split_surface& surface)
 {
   const Mesh& mesh = surface.mesh();
-  const std::uint32_t none = std::uint32_t(-1);
-  std::vector<std::uint32_t> chart(mesh.number_of_faces(), none);
-  std::uint32_t number = 0;
-  std::vector<Face> stack;
-  for(Face first : mesh.faces())
+  const auto ends_chart = boost::make_function_property_map<Mesh::Edge_index>([&](Mesh::Edge_index e)
   {
-    if(chart[first.idx()] != none)
-      continue;
-    stack.push_back(first);
-    chart[first.idx()] = number;
-    while(! stack.empty())
-    {
-      const Face f = stack.back();
-      stack.pop_back();
-      for(Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
-      {
-        const Halfedge o = mesh.opposite(h);
-        const bool is_open = mesh.is_border(o) || (! surface.is_on_sphere() && is_outline(mesh, surface.result().uv, h));
-        if(is_open || chart[mesh.face(o).idx()] != none)
-          continue;
-        chart[mesh.face(o).idx()] = number;
-        stack.push_back(mesh.face(o));
-      }
-    }
-    ++number;
-  }
+    const Halfedge h = mesh.halfedge(e);
+    return ! surface.is_on_sphere() && is_outline(mesh, surface.result().uv, mesh.is_border(h) ? mesh.opposite(h) : h);
+  });
+  std::vector<std::uint32_t> chart(mesh.number_of_faces());
+  CGAL::Polygon_mesh_processing::connected_components(mesh, boost::make_iterator_property_map(chart.begin(), get(CGAL::face_index, mesh)),
+                                                      CGAL::parameters::edge_is_constrained_map(ends_chart));
   return chart;
 }
 

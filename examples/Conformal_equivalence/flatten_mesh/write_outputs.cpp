@@ -290,6 +290,12 @@ Material_files::Material_files(const std::string& obj)
   texture = beside(".checker.png");
 }
 
+bool is_output_in_stream(const Options& options)
+{
+  const std::vector<std::string> files = outputs(options);
+  return std::any_of(files.begin(), files.end(), is_standard_stream);
+}
+
 void announce_outputs(const Options& options, const Material_files& beside, Output_files& files)
 {
   std::vector<std::string> written = outputs(options);

@@ -41,8 +41,9 @@ namespace Conformal_equivalence {
 
 namespace internal {
 
+// `measure`: what is made small if neither that nor a bound is given
 template <typename NamedParameters>
-Cone_options read_cone_options(const NamedParameters& np)
+Cone_options read_cone_options(const NamedParameters& np, Cone_measure measure = Cone_measure::MAXIMUM_U)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
@@ -54,7 +55,7 @@ Cone_options read_cone_options(const NamedParameters& np)
   options.angle_quantum = choose_parameter(get_parameter(np, internal_np::conformal_angle_quantum), options.angle_quantum);
   options.maximum_root_mean_square =
     choose_parameter(get_parameter(np, internal_np::conformal_maximum_root_mean_square), options.maximum_root_mean_square);
-  options.measure = choose_parameter(get_parameter(np, internal_np::conformal_cone_measure), options.measure_of_bounds());
+  options.measure = choose_parameter(get_parameter(np, internal_np::conformal_cone_measure), options.measure_of_bounds(measure));
   options.angles = choose_parameter(get_parameter(np, internal_np::conformal_cone_angles), options.angles);
   options.number_of_sweeps = choose_parameter(get_parameter(np, internal_np::conformal_number_of_sweeps), options.number_of_sweeps);
   return options;

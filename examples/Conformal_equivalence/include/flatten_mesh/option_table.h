@@ -18,6 +18,7 @@ struct Option_entry
   std::string value;       // what it takes, alternatives divided by '|'; empty for a switch
   std::string if_absent;   // the value that is meant then; may be empty
   std::string description;
+  bool is_repeatable = false; // may it be given several times?
 };
 
 std::vector<Option_entry> option_table();

@@ -67,8 +67,11 @@ struct Options
   std::vector<Given_option> given;
 };
 
+// The places of the names of all outputs.
+std::vector<std::string*> places_of_outputs(Options& options);
+
 // The names of the files that will be written, some of them empty.
-std::vector<std::string> outputs(const Options& options);
+std::vector<std::string> outputs(Options options);
 
 std::string help_text();
 

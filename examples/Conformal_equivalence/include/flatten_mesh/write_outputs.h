@@ -25,6 +25,9 @@ struct Material_files
   explicit Material_files(const std::string& obj);
 };
 
+// Whether an output goes to the standard output, which is then for nothing else.
+bool is_output_in_stream(const Options& options);
+
 // Announces the files that will be written. Throws a `Usage_error` if one would overwrite the input.
 void announce_outputs(const Options& options, const Material_files& beside, Output_files& files);
 

@@ -29,11 +29,12 @@ struct Cone_options
   bool has_bound() const { return maximum_u > 0 || maximum_area_distortion > 0 || maximum_root_mean_square > 0; }
 
   // What is bounded is what cones are placed for, if nothing else is said.
-  Cone_measure measure_of_bounds() const
+  Cone_measure measure_of_bounds(Cone_measure without_bounds) const
   {
-    return maximum_u > 0 || !has_bound() ? Cone_measure::MAXIMUM_U
-         : maximum_area_distortion > 0   ? Cone_measure::AREA_DISTORTION
-                                         : Cone_measure::ROOT_MEAN_SQUARE_U;
+    return maximum_u > 0                ? Cone_measure::MAXIMUM_U
+         : maximum_area_distortion > 0  ? Cone_measure::AREA_DISTORTION
+         : maximum_root_mean_square > 0 ? Cone_measure::ROOT_MEAN_SQUARE_U
+                                        : without_bounds;
   }
 };
 

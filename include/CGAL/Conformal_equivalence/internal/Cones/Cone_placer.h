@@ -283,7 +283,7 @@ private:
   bool choose()
   {
     visitor().on_stage(Stage::PLACE);
-    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, solver_options_.visitor);
+    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, visitor());
     if(!chooser.begin())
       return false;
     Curved_cones s;
@@ -676,7 +676,7 @@ private:
        || result_.status != Status::OK || !is_success(result_.metric.status))
       return;
     visitor().on_stage(Stage::PLACE);
-    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, solver_options_.visitor);
+    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, visitor());
     if(!chooser.go_on_from(result_.metric) && !chooser.begin())
       return;
     const double turn = 2 * Number_constants<double>::pi();

@@ -203,11 +203,13 @@ private:
     if(filtered_difference(quad<double>(t_, e, s, To_double()), d) && is_decided(d, bound, result))
       return result;
     ++counts_.filter_failures;
-    if(filtered_difference(quad<Double_double>(t_, e, s, To_double_double()), d) && is_decided(d, bound, result))
+    const bool has_all_digits = filtered_difference(quad<Double_double>(t_, e, s, To_double_double()), d);
+    if(has_all_digits && is_decided(d, bound, result))
       return result;
     if(!has_positive_numbers(t_, e, s))
       return State::NOT_DELAUNAY;
-    if(filtered_difference(converted_quad<Scaled_number<Double_double> >(t_, e, s, To_scaled(), To_scaled()), d) && is_decided(d, bound, result))
+    if(!has_all_digits && filtered_difference(converted_quad<Scaled_number<Double_double> >(t_, e, s, To_scaled(), To_scaled()), d)
+       && is_decided(d, bound, result))
       return result;
     ++counts_.exact_decisions;
     is_decided(exact_difference(quad<Exact_number>(t_, e, s, To_exact())), bound, result);

@@ -202,10 +202,9 @@ private:
   {
     if constexpr(do_cones_place_themselves<NamedParameters>())
     {
-      Cone_options options = read_cone_options(np);
+      // where u is even, tiles fit nearly everywhere: fewer triangles are turned over
+      Cone_options options = read_cone_options(np, Cone_measure::ROOT_MEAN_SQUARE_U);
       options.angle_quantum = options_.angle_quantum;
-      if(parameters::is_default_parameter<NamedParameters, internal_np::conformal_cone_measure_t>::value && !options.has_bound())
-        options.measure = Cone_measure::ROOT_MEAN_SQUARE_U; // where u is even, tiles fit nearly everywhere: fewer triangles are turned over
       take(place_cones_with(flattening.mesh.triangulation, options, np));
     }
     else
