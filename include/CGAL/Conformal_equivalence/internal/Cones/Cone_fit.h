@@ -243,7 +243,8 @@ private:
   static Eigen::MatrixXd gram_of(const Eigen::MatrixXd& x)
   {
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(x.cols(), x.cols());
-    result.template selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+    if(x.cols() > 0) // Eigen's rankUpdate() refers to the first entry
+      result.template selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
     return result.template selfadjointView<Eigen::Lower>();
   }
 
