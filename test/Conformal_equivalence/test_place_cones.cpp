@@ -583,7 +583,7 @@ BOOST_AUTO_TEST_CASE(corners_of_regular_solids_are_found)
 }
 
 // Each measure is the least where it is aimed at.
-BOOST_AUTO_TEST_CASE(what_is_aimed_at_is_best)
+BOOST_AUTO_TEST_CASE(what_is_aimed_at_is_best, * slow())
 {
   for(const Soup& soup : {bumps(24), arms(3), scaled(icosphere(3), 1, 1, 3)})
     for(const std::size_t n : {4u, 8u})
@@ -608,7 +608,7 @@ BOOST_AUTO_TEST_CASE(what_is_aimed_at_is_best)
 
 // Chosen angles are no worse than u = 0 at the cones where the model foresees the metric badly (pinion), nor where few vertices with a large |u|
 // determine the angles (elephant, femur: curvatures at their bounds, which have to keep their sum).
-BOOST_AUTO_TEST_CASE(chosen_angles_are_no_worse_than_zero_u, *needs_mesh("pinion.off"))
+BOOST_AUTO_TEST_CASE(chosen_angles_are_no_worse_than_zero_u, * needs_mesh("pinion.off") * slow())
 {
   for(const char* name : {"pinion.off", "elephant.off", "femur.off", "pig.off", "anchor.off", "rotor.off", "eight.off"})
   {
@@ -735,7 +735,7 @@ BOOST_AUTO_TEST_CASE(a_bound_is_met_or_the_best_is_returned)
 }
 
 // The search measures u to first order; what counts is the exact metric. For smaller bounds, too, if one is met.
-BOOST_AUTO_TEST_CASE(the_exact_metric_meets_the_bound)
+BOOST_AUTO_TEST_CASE(the_exact_metric_meets_the_bound, * slow())
 {
   for(const Soup& soup : {icosphere(2), icosphere(3), scaled(icosahedron(), 100, 1, 1), scaled(icosphere(2), 1, 1, 8), arms(2)})
     for(const double bound : {.5, 1., 1.5, 2., 3., 4.})
