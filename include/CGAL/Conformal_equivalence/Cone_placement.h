@@ -11,7 +11,7 @@
 
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -22,9 +22,10 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceSolver
 ///
-/// The cones that were placed, and the metric with them.
+/// The cones that were placed, and the metric with them. Its `status` tells whether the cones could be placed, or why not; with `BOUND_NOT_MET`, and
+/// `STOPPED_BY_VISITOR` where `metric` is a success, the rest is the best that was found.
 template <typename NT_ = double>
-struct Cone_placement
+struct Cone_placement : public Outcome
 {
   typedef NT_ NT;              ///< number type of the lengths
   typedef std::uint32_t Index; ///< of vertices
@@ -48,14 +49,6 @@ struct Cone_placement
   std::size_t number_of_sweeps = 0;        ///< of the concurrent optimization
   std::size_t number_of_moves = 0;         ///< of single cones to vertices nearby that made it better
   std::size_t number_of_solves = 0;        ///< linear systems solved with the one factor
-
-  /// whether the cones could be placed, or why not. With `BOUND_NOT_MET`, and `STOPPED_BY_VISITOR` where `metric` is a success, the rest is the best
-  /// that was found
-  Status status = Status::OK;
-  double amount = 0;                       ///< see `Status`
-
-  /// is `true` iff there is a placement that is as asked for.
-  explicit operator bool() const { return is_success(status); }
 };
 
 } // namespace Conformal_equivalence

@@ -24,7 +24,7 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
-#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Bounding_strip.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/Box_tree.h>
@@ -68,9 +68,12 @@ namespace Conformal_equivalence {
 /// barycentric coordinates are those of the vertices around `fd` from `source(halfedge(fd, tm), tm)` on, as in a `Face_location` of
 /// Polygon Mesh Processing; an answer lies in `mesh.face(point.input_face)`.
 ///
+/// Its `status` is `OK`, `EMPTY_MESH`, `TOO_MANY_CROSSINGS` (more than allowed for one face, or of one edge more than 32 bits can
+/// count), or `OUT_OF_MEMORY`; its `amount` is the number of crossings, for a metric of the double those of both halves.
+///
 /// \tparam NT_ number type of the coordinates: that of the metric
 template <typename NT_ = double>
-class Surface_locator
+class Surface_locator : public Outcome
 {
   typedef Conformal_metric<NT_> Metric;
   typedef typename Metric::Wide_number Wide;
@@ -157,15 +160,6 @@ public:
     internal::Projective_cells<Wide, NT> cells_;
     std::vector<Index> flat_face_; // by cell
   };
-
-  /// `OK`, `EMPTY_MESH`, `TOO_MANY_CROSSINGS` (more than allowed for one face, or of one edge more than 32 bits can count), or
-  /// `OUT_OF_MEMORY`
-  Status status = Status::OK;
-
-  double amount = 0; ///< the number of crossings; for a metric of the double, of both halves
-
-  /// is `true` iff there are answers.
-  explicit operator bool() const { return is_success(status); }
 
   /// prepares the queries. O(n log n) for `n` faces, and linear in the number of crossings, of which none is kept. If there were no
   /// flips, none are repeated.

@@ -245,8 +245,7 @@ private:
   {
     if(result_.status != Status::OK)
       return;
-    result_.status = result_.metric.status;
-    result_.amount = result_.metric.amount;
+    result_.set_outcome(result_.metric.outcome());
     if(!is_success(result_.status))
       return;
     if(misses_maximum_u())

@@ -40,7 +40,7 @@ void report_cones(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_pl
   report.status = placement.status;
   report.amount = placement.amount;
   if(!metric.is_retriangulated())
-    name_elements(mesh, metric.vertices, {}, metric.faces, report);
+    name_elements(mesh, placement.vertices, {}, placement.faces, report);
   if(!bool(report) && report.status != Status::BOUND_NOT_MET)
     return;
   for(std::size_t i = 0; i < placement.cones.size(); ++i)
