@@ -4,6 +4,7 @@
 // The hyperbolic surface that a mesh is conformally equivalent to: its picture, its group, its figures.
 
 #include "../include/flatten_mesh/hyperbolic.h"
+#include "../include/flatten_mesh/conditions.h"
 #include "../include/flatten_mesh/Disk_drawing.h"
 #include "../include/flatten_mesh/figures.h"
 #include "../include/flatten_mesh/Given_surface.h"
@@ -33,6 +34,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -68,6 +70,12 @@ std::string list_of_elements(const char* one, const char* several, const std::ve
   return numbers.size() > 10 ? list + ", ..." : list;
 }
 
+double in_degrees(double angle)
+{
+  const double degrees = angle / CGAL_PI * 180, nearest = std::round(degrees * 1e6) / 1e6;
+  return std::abs(degrees - nearest) < 1e-9 ? nearest : degrees; // 90, and not 90.00000000000001
+}
+
 std::string explanation(const Given_surface& given, const Uniformization& u)
 {
   const std::string faces = list_of_elements("face", "faces", u.faces, [&](std::uint32_t f) { return given.face(Face(f)); }),
@@ -75,7 +83,14 @@ std::string explanation(const Given_surface& given, const Uniformization& u)
   switch(u.status)
   {
     case CE::Status::WRONG_TOPOLOGY:
-      return "a surface whose Euler characteristic is not negative has no hyperbolic metric without cones (borders become geodesics)" + faces;
+      return "a surface whose Euler characteristic is not negative has no hyperbolic metric without cones (borders become geodesics), whose "
+             "curvatures (360 - angle) must sum up to more than " + text(in_degrees(u.amount), " degrees (--cones FILE)") + faces;
+    case CE::Status::GAUSS_BONNET_VIOLATED:
+    case CE::Status::NO_ANGLE_LEFT:
+      return text("there is no hyperbolic metric with these angles, which leave it no area: by the Gauss-Bonnet formula they must be smaller by more "
+                  "than ", in_degrees(-u.amount), " degrees in all", u.is_doubled ? " (of the double of the mesh)" : "") + vertices;
+    case CE::Status::ANGLE_OUT_OF_RANGE:
+      return text(CE::message(u.status), ": ", in_degrees(u.amount), " degrees", vertices);
     case CE::Status::ITERATIONS_EXHAUSTED:
       return text(CE::message(u.status), ": the residual is ", u.amount);
     case CE::Status::DEGENERATE_METRIC: // its faces are not those of the file
@@ -95,8 +110,10 @@ Lines summary_of(const Given_surface& given, const Mesh& mesh, const Uniformizat
   lines.emplace_back("Newton steps", text(s.number_of_iterations, ", edges flipped ", u.metric.flips.size()));
   lines.emplace_back("residual", text(s.residual));
   lines.emplace_back("u", text(s.least_u, " to ", s.largest_u));
-  lines.emplace_back("error of the relation", text(u.relation_error));
-  if(bool(exact))
+  lines.emplace_back(u.has_group() ? "error of the relation" : "error around vertices", text(u.relation_error));
+  if(! u.has_group())
+    lines.emplace_back("group", "none: the surface has cones or borders");
+  else if(bool(exact))
     lines.emplace_back("exact group", text(exact.number_of_digits(), " digits, lengths of edges differ by ", exact.largest_length_difference()));
   else
     lines.emplace_back("exact group", text("none: ", CE::message(exact.status)));
@@ -149,13 +166,14 @@ std::string json_report(const Options& options, const Mesh& mesh, const Uniformi
   report["residual"] = s.residual;
   report["u"] = { s.least_u, s.largest_u };
   report["area"] = u.metric.area;
+  report["has_group"] = u.has_group();
   report["relation_error"] = u.relation_error;
   report["motions"] = "z -> (a z + b) / (conj(b) z + conj(a))";
   report["generators"] = json_of(u.generators);
   report["relation"] = u.relation;
   report["canonical_words"] = u.canonical_words;
   report["canonical_generators"] = json_of(u.canonical_generators);
-  if(bool(exact))
+  if(u.has_group() && bool(exact))
     report["exact"] = { {"largest_length_difference", exact.largest_length_difference()}, {"digits", exact.number_of_digits()},
                         {"generators", json_of(exact.generators())}, {"canonical_generators", json_of(exact.canonical_generators())} };
   report["seconds"] = seconds;
@@ -185,6 +203,28 @@ UV_map corner_map(Mesh& mesh, const CE::Imported_mesh<Mesh>& imported, const Uni
   return uv;
 }
 
+Uniformization uniformization(const Options& options, const Given_surface& given, Mesh& mesh, std::ostream& err)
+{
+  Conditions conditions(given, mesh);
+  set_conditions(options, mesh, given, conditions);
+  if(options.has_geodesic_borders) // the angles are those of a straight line unless they are given
+    for(Vertex v : mesh.vertices())
+      if(is_on_border(mesh, v))
+        conditions.is_constrained[v] = false;
+  Progress progress(err, kind_of_progress(err, options.quiet));
+  Progress_visitor visitor(progress);
+  return CE::uniformize_hyperbolic(mesh, CGAL::parameters::mollification(options.mollification)
+                                           .cone_angle_map(conditions.cone_angle)
+                                           .border_angle_map(conditions.border_angle)
+                                           .vertex_is_constrained_map(conditions.is_constrained)
+                                           .prescribed_log_scale_factor_map(conditions.u)
+                                           .gradient_tolerance(options.tolerance)
+                                           .number_of_iterations(options.maximum_number_of_iterations)
+                                           .retriangulation(options.retriangulation)
+                                           .visitor(std::ref(visitor))
+                                           .sparse_linear_solver(Solver_traits(options.solver)));
+}
+
 } // namespace
 
 void run_hyperbolic(const Options& options, Output_files& files, std::ostream& out, std::ostream& err)
@@ -194,22 +234,12 @@ void run_hyperbolic(const Options& options, Output_files& files, std::ostream& o
   const Stopwatch watch;
   Mesh mesh;
   const Given_surface given = read_surface(options.input, options.repair, mesh, options.format);
-  Uniformization u;
-  {
-    Progress progress(err, kind_of_progress(err, options.quiet));
-    Progress_visitor visitor(progress);
-    u = CE::uniformize_hyperbolic(mesh, CGAL::parameters::mollification(options.mollification)
-                                          .gradient_tolerance(options.tolerance)
-                                          .number_of_iterations(options.maximum_number_of_iterations)
-                                          .retriangulation(options.retriangulation)
-                                          .visitor(std::ref(visitor))
-                                          .sparse_linear_solver(Solver_traits(options.solver)));
-  }
+  const Uniformization u = uniformization(options, given, mesh, err);
   if(! u)
     fail(options.input, ": ", explanation(given, u));
   if(! u.is_laid_out())
     fail(options.input, ": only connected surfaces are laid out, without vertices that have no face");
-  const Exact_surface exact = CE::realize_exactly(u);
+  const Exact_surface exact = u.has_group() ? CE::realize_exactly(u) : Exact_surface();
   const double seconds = watch.seconds();
   const CE::Imported_mesh<Mesh> imported(mesh);
   const Lines lines = summary_of(given, mesh, u, exact, seconds);

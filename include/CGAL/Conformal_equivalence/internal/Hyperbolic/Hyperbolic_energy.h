@@ -16,6 +16,7 @@
 
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_linear_solver.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/hyperbolic_triangle.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
@@ -117,25 +118,34 @@ public:
   const std::vector<double>& weights() const { return weight_; }            // w, by edge
   const std::vector<Index>& broken_faces() const { return broken_; }        // that violate the triangle inequality
   const std::vector<Index>& flips() const { return flips_; }                // in order
+  std::size_t number_of_changes() const { return changes_; }                // of the triangulation; it never falls
   const std::vector<double>& sensitivities() const { return sensitivity_; } // of the angle sums to relative errors of x, by vertex
   Delaunay_flipper<NT>& flipper() { return *flipper_; }
 
-  // The lower half of minus the derivative of the angle sums, for the free vertices.
+  // Minus the derivative of the angle sums.
+  Coupled_vertices hessian() const
+  {
+    Coupled_vertices result;
+    result.coupling.resize(t_.number_of_edges());
+    result.own.assign(t_.number_of_vertices(), 0.);
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+    {
+      const Index i = t_.origin(t_.edge_halfedge(e)), j = t_.target(t_.edge_halfedge(e));
+      const double x = scale_[i] * x_[e] * scale_[j], cosine_square = 1 + x * x; // 1 - tanh^2 = 1 / cosh^2
+      result.coupling[e] = 2 * weight_[e] / cosine_square;
+      const double own = 2 * weight_[e] * (x / cosine_square * x);
+      result.own[i] += own;
+      result.own[j] += own;
+    }
+    return result;
+  }
+
+  // Its lower half, for the free vertices.
   Eigen::SparseMatrix<double> hessian(Edge_graph& graph) const
   {
     graph.set_edges(t_);
-    std::vector<double> coupling(t_.number_of_edges());
-    Vertex_vector diagonal(t_.number_of_vertices(), 0.);
-    for(Index e = 0; e < t_.number_of_edges(); ++e)
-    {
-      const Index i = graph.ends[e].first, j = graph.ends[e].second;
-      const double x = scale_[i] * x_[e] * scale_[j], cosine_square = 1 + x * x; // 1 - tanh^2 = 1 / cosh^2
-      coupling[e] = 2 * weight_[e] / cosine_square;
-      const double own = 2 * weight_[e] * (x / cosine_square * x);
-      diagonal[i] += own;
-      diagonal[j] += own;
-    }
-    return assemble_lower(graph, coupling, diagonal);
+    const Coupled_vertices whole = hessian();
+    return assemble_lower(graph, whole.coupling, whole.own);
   }
 
   // Flips what is not Delaunay at the factors s of a wider type, beyond the errors of the lengths. Returns whether there was anything to flip.
@@ -181,6 +191,7 @@ private:
     flipper_->flip_to_delaunay(s, std::move(candidates), Flip_rule::PTOLEMY, [&](Index e) { flips_.push_back(e); });
     for(std::size_t n = before; n < flips_.size(); ++n)
     {
+      ++changes_;
       x_[flips_[n]] = static_cast<double>(t_.length(flips_[n]));
       is_worn_ = is_worn_ || flipper_->length_error(flips_[n]) > 1e-13;
     }
@@ -195,6 +206,7 @@ private:
     for(Index e = 0; e < t_.number_of_edges(); ++e)
       x_[e] = static_cast<double>(t_.length(e));
     flips_.clear();
+    ++changes_;
     is_worn_ = false;
   }
 
@@ -250,6 +262,7 @@ private:
   std::unique_ptr<Delaunay_flipper<NT> > flipper_;
   std::vector<double> x_, scale_, angle_sum_, weight_, sensitivity_;
   std::vector<Index> broken_, without_circle_, flips_;
+  std::size_t changes_ = 0;
   bool is_worn_ = false; // some length is known less well than to rounding
 };
 
