@@ -64,7 +64,8 @@ po::options_description visible_options()
        "disk: the unit disk, for topological disks; all border vertices are on the circle\n"
        "hyperbolic: the hyperbolic surface, in Poincare's disk, for one connected surface of negative Euler characteristic, or with cones whose "
        "curvatures leave an area; borders become geodesics, unless there is --boundary. Written are the disk coordinates of the corners (-o), a "
-       "picture with copies (--svg, --html), and, without cones, the group, rounded and in exact numbers (--report)\n"
+       "picture with copies (--svg, --html), and, without cones, the group, rounded and in exact numbers (--report). With --precision BITS u is "
+       "found with so many digits (--report), while layout and group have those of two doubles\n"
        "Several components: each has a sphere or disk of its own, the i-th (from 0) of n with its centre in (2.25 (i mod c), 2.25 floor(i / c), 0), "
        "where c is the root of n, rounded up; spheres are objects component_i of the OBJ file, unless INPUT has objects")
     ("moebius-weights", word("vertices|areas", "vertices"), "what has its barycentre in the centre "
@@ -254,7 +255,7 @@ void parse_options_of_target(const po::variables_map& values, const std::string&
   if(options.target == Target::HYPERBOLIC && (! options.glb.empty() || ! options.ply.empty()))
     throw Usage_error(target + " has no output in the formats GLB and PLY; -o *.obj has the disk coordinates");
   if(options.target == Target::HYPERBOLIC)
-    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by", "precision",
+    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by",
                              "flat", "dxf", "true-scale"});
   else
     exclude(values, target, {"cones"});
@@ -277,7 +278,6 @@ void parse_target(const po::variables_map& values, Options& options)
     throw Usage_error(text(option, " and --boundary ", values["boundary"].as<std::vector<std::string> >()[0], " exclude each other"));
   if(! is_boundary_disk)
     options.target = name == "sphere" ? Target::SPHERE : name == "disk" ? Target::DISK : name == "hyperbolic" ? Target::HYPERBOLIC : Target::PLANE;
-  options.has_geodesic_borders = options.target == Target::HYPERBOLIC && values.count("boundary") == 0;
   parse_options_of_target(values, is_boundary_disk && ! is_given ? "--boundary disk" : option, options);
 }
 

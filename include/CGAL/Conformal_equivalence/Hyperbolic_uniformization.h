@@ -28,9 +28,9 @@ namespace Conformal_equivalence {
 /// The hyperbolic metric of a surface, and, if the surface is connected, its layout in the unit disk (Poincaré's model). A surface with border that
 /// was solved by its double, of which the border is a geodesic, is laid out as this double: what belongs to the surface has the same numbers there.
 ///
-/// Without cones and borders there is a group. Every vertex has one chosen *lift* in the disk. A halfedge from i to j, lifted such that it begins at the lift of i, ends at the lift of j
-/// moved by a deck transformation, whose word is the *label* of the halfedge: the letter k > 0 stands for `generators[k - 1]`, and -k for its
-/// inverse; a word means the product of its letters.
+/// Without cones and borders there is a group. Every vertex has one chosen *lift* in the disk. A halfedge from i to j, lifted such that it begins at
+/// the lift of i, ends at the lift of j moved by a deck transformation, whose word is the *label* of the halfedge: the letter k > 0 stands for
+/// `generators[k - 1]`, and -k for its inverse; a word means the product of its letters.
 struct Hyperbolic_uniformization : public Outcome
 {
   typedef std::uint32_t Index;  ///< of vertices, halfedges, edges and faces

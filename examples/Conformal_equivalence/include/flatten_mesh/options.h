@@ -38,7 +38,6 @@ struct Options
   bool is_rectangle = false;
   std::optional<std::array<std::size_t, 4> > corners; // of the rectangle; chosen if absent
   std::string angle_file, scale_file;                 // of the borders
-  bool has_geodesic_borders = false;                  // of a hyperbolic surface
   std::string cone_file;
   std::string holonomy_file;                          // how loops around handles turn
   bool places_cones = false;                          // --cones auto

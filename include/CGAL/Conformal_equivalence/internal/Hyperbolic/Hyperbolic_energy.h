@@ -40,19 +40,22 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The scaled x of the sides of a face, and their hyperbolic cosines.
+// The scaled x of the sides of a face, their hyperbolic cosines, and these less 1.
 template <typename NT>
 struct Hyperbolic_sides
 {
-  std::array<NT, 3> x, y;
+  std::array<NT, 3> x, y, m;
 
   Hyperbolic_sides(const NT& x0, const NT& x1, const NT& x2)
-    : x{{x0, x1, x2}}, y{{hyperbolic_cosine(x0), hyperbolic_cosine(x1), hyperbolic_cosine(x2)}}
+    : x{{x0, x1, x2}}, y{{hyperbolic_cosine(x0), hyperbolic_cosine(x1), hyperbolic_cosine(x2)}},
+      m{{hyperbolic_cosine_minus_one(x[0], y[0]), hyperbolic_cosine_minus_one(x[1], y[1]), hyperbolic_cosine_minus_one(x[2], y[2])}}
   {}
 
-  Hyperbolic_sides(const std::array<NT, 3>& sines, const std::array<NT, 3>& cosines) : x(sines), y(cosines) {}
+  Hyperbolic_sides(const std::array<NT, 3>& sines, const std::array<NT, 3>& cosines, const std::array<NT, 3>& cosines_minus_one)
+    : x(sines), y(cosines), m(cosines_minus_one)
+  {}
 
-  Hyperbolic_incircle_form<NT> triangle() const { return Hyperbolic_incircle_form<NT>(x, y); }
+  Hyperbolic_incircle_form<NT> triangle() const { return Hyperbolic_incircle_form<NT>(x, y, m); }
 };
 
 // The same of all edges, each of which has two faces.
@@ -63,19 +66,24 @@ public:
   // `x` by edge, scaled
   explicit Hyperbolic_edges(std::vector<NT> x) : x_(std::move(x))
   {
+    y_.reserve(x_.size());
+    m_.reserve(x_.size());
     for(const NT& sine : x_)
+    {
       y_.push_back(hyperbolic_cosine(sine));
+      m_.push_back(hyperbolic_cosine_minus_one(sine, y_.back()));
+    }
   }
 
   template <typename Length>
   Hyperbolic_sides<NT> sides_of_face(const Intrinsic_triangulation<Length>& t, std::uint32_t f) const
   {
     const std::uint32_t a = t.edge(3 * f), b = t.edge(3 * f + 1), c = t.edge(3 * f + 2);
-    return Hyperbolic_sides<NT>({{x_[a], x_[b], x_[c]}}, {{y_[a], y_[b], y_[c]}});
+    return Hyperbolic_sides<NT>({{x_[a], x_[b], x_[c]}}, {{y_[a], y_[b], y_[c]}}, {{m_[a], m_[b], m_[c]}});
   }
 
 private:
-  std::vector<NT> x_, y_;
+  std::vector<NT> x_, y_, m_;
 };
 
 template <typename NT, typename Wide>
@@ -159,6 +167,9 @@ private:
   bool flip_here()
   {
     const int most_rounds = 100; // each flips to the end, as far as rounding lets it see
+    const std::size_t before = changes_;
+    if(has_flipped_ && std::all_of(scale_.begin(), scale_.end(), [](double s) { return s > 1e-100 && s < 1e100; }))
+      flip(scale_, all_edges(t_)); // as there will be more: angles that nobody asks for are not found
     bool is_finite = find_angles();
     for(int round = 0; is_finite && round < most_rounds; ++round)
     {
@@ -167,6 +178,7 @@ private:
         break;
       is_finite = find_angles();
     }
+    has_flipped_ = changes_ != before;
     return is_finite;
   }
 
@@ -263,6 +275,7 @@ private:
   std::vector<double> x_, scale_, angle_sum_, weight_, sensitivity_;
   std::vector<Index> broken_, without_circle_, flips_;
   std::size_t changes_ = 0;
+  bool has_flipped_ = false; // in the last evaluation
   bool is_worn_ = false; // some length is known less well than to rounding
 };
 

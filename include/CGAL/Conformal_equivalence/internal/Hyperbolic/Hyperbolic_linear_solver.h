@@ -11,6 +11,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
 
 #include <Eigen/SparseCore>
 
@@ -58,9 +59,8 @@ public:
     number_of_flips_ = number_of_flips;
   }
 
-  // H d = r on the free vertices, up to `tolerance` times the largest entry of r, or as well as rounding allows. `effort` is how many iterations
-  // are made before a new factor is thought to be cheaper. Returns whether there is a factor.
-  bool solve(const Vertex_vector& r, double tolerance, std::size_t effort, Vertex_vector& d)
+  // H d = r on the free vertices, up to `tolerance` times the largest entry of r, or as well as rounding allows. Returns whether there is a factor.
+  bool solve(const Vertex_vector& r, double tolerance, Vertex_vector& d)
   {
     if(graph_.number_of_free == 0)
     {
@@ -68,7 +68,7 @@ public:
       return true;
     }
     const std::size_t most_with_new_factor = 50; // only ends what rounding keeps from converging
-    return (has_factor_ && conjugate_gradients(r, tolerance, effort, true, d))
+    return (has_factor_ && conjugate_gradients(r, tolerance, iterations_worth_a_factorization, true, d))
         || (factorize() && (conjugate_gradients(r, tolerance, most_with_new_factor, false, d) || has_factor_));
   }
 
@@ -102,10 +102,11 @@ private:
   bool conjugate_gradients(const Vertex_vector& b, double tolerance, std::size_t most, bool may_give_up, Vertex_vector& d)
   {
     const double goal = tolerance * largest_entry(b);
-    double rz = 0, size = largest_entry(b);
+    double rz = 0;
+    std::vector<double> sizes(1, largest_entry(b)); // of the residual
     r_ = b;
     d.assign(b.size(), 0.);
-    for(std::size_t iteration = 0; iteration < most && size > goal; ++iteration)
+    for(std::size_t iteration = 0; iteration < most && sizes.back() > goal; ++iteration)
     {
       ++statistics_.number_of_linear_iterations;
       if(!precondition())
@@ -133,18 +134,21 @@ private:
         d[v] += step * p_[v];
         r_[v] -= step * q_[v];
       }
-      const double before = size;
-      size = largest_entry(r_);
-      if(may_give_up && iteration >= 3 && is_too_slow(size / before, goal / size, most - iteration - 1))
+      sizes.push_back(largest_entry(r_));
+      if(may_give_up && is_too_slow(sizes, goal, most))
         return false;
     }
-    return size <= goal;
+    return sizes.back() <= goal;
   }
 
-  // Would more iterations than these be needed, if each gained as much as the last one?
-  static bool is_too_slow(double gain, double wanted, std::size_t iterations_left)
+  // Would more than `most` iterations be needed, if each gained as much as the last three have done? (The first ones gain otherwise.)
+  static bool is_too_slow(const std::vector<double>& sizes, double goal, std::size_t most)
   {
-    return wanted < 1 && !(gain < 1 && std::log(wanted) / std::log(gain) <= double(iterations_left) + 2);
+    const std::size_t n = sizes.size() - 1, first_judged = 4, span = 3;
+    if(n < first_judged || sizes.back() <= goal)
+      return false;
+    const double gain = std::log(sizes[n - span] / sizes[n]) / double(span);
+    return !(gain > 0 && double(n) + std::log(sizes[n] / goal) / gain <= double(most) + 1);
   }
 
   void multiply(const Vertex_vector& x, Vertex_vector& y) const

@@ -22,7 +22,6 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
-#include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/feasibility.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/line_search.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
@@ -201,7 +200,7 @@ private:
   }
 
   // d = H^-1 r on the free vertices, with the Hessian where the energy was last evaluated.
-  bool solve(const Vertex_vector& r, double tolerance, std::size_t effort, Vertex_vector& d)
+  bool solve(const Vertex_vector& r, double tolerance, Vertex_vector& d)
   {
     if(is_moved_)
     {
@@ -209,7 +208,7 @@ private:
       linear_.set_matrix(metric_.triangulation, energy_->number_of_changes(), hessian_);
       is_moved_ = false;
     }
-    return linear_.solve(r, tolerance, effort, d);
+    return linear_.solve(r, tolerance, d);
   }
 
   // How accurately the next step is solved for, as in the plane: not to spoil quadratic convergence.
@@ -255,7 +254,7 @@ private:
         return Status::STOPPED_BY_VISITOR;
       if(metric_.statistics.number_of_iterations == options_.number_of_iterations)
         return Status::ITERATIONS_EXHAUSTED;
-      if(!solve(r, forcing_term(tolerance), iterations_worth_a_factorization, d))
+      if(!solve(r, forcing_term(tolerance), d))
         return Status::SINGULAR_PROBLEM;
       if(!step(d, r, size))
         return size <= 10 * metric_.statistics.residual_floor ? Status::OK : Status::ITERATIONS_EXHAUSTED;
@@ -354,9 +353,9 @@ private:
     using std::ldexp;
     Vertex_vector right = residual.entries, d;
     graph_.clear_fixed(right);
-    // no more digits than quadratic convergence has, and more iterations than above: a residual in the wide type saved is worth a few
+    // no more digits than quadratic convergence has
     const double tolerance = (std::min)(1e-3, (std::max)(1e-14, 1e-2 * static_cast<double>(size)));
-    if(!solve(right, tolerance, 2 * iterations_worth_a_factorization, d))
+    if(!solve(right, tolerance, d))
       return false;
     longest = std::ldexp(largest_entry(d), residual.exponent);
     std::vector<Wide> moved = s;
