@@ -75,7 +75,7 @@ std::string list_of_elements(const char* one, const char* several, const std::ve
   return numbers.size() > 10 ? list + ", ..." : list;
 }
 
-double in_degrees(double angle)
+double degrees_of(double angle)
 {
   const double degrees = angle / CGAL_PI * 180, nearest = std::round(degrees * 1e6) / 1e6;
   return std::abs(degrees - nearest) < 1e-9 ? nearest : degrees; // 90, and not 90.00000000000001
@@ -89,13 +89,13 @@ std::string explanation(const Given_surface& given, const Uniformization& u)
   {
     case CE::Status::WRONG_TOPOLOGY:
       return "a surface whose Euler characteristic is not negative has no hyperbolic metric without cones (borders become geodesics), whose "
-             "curvatures (360 - angle) must sum up to more than " + text(in_degrees(u.amount), " degrees (--cones FILE)") + faces;
+             "curvatures (360 - angle) must sum up to more than " + text(degrees_of(u.amount), " degrees (--cones FILE)") + faces;
     case CE::Status::GAUSS_BONNET_VIOLATED:
     case CE::Status::NO_ANGLE_LEFT:
       return text("there is no hyperbolic metric with these angles, which leave it no area: by the Gauss-Bonnet formula they must be smaller by more "
-                  "than ", in_degrees(-u.amount), " degrees in all", u.is_doubled ? " (of the double of the mesh)" : "") + vertices;
+                  "than ", degrees_of(-u.amount), " degrees in all", u.is_doubled ? " (of the double of the mesh)" : "") + vertices;
     case CE::Status::ANGLE_OUT_OF_RANGE:
-      return text(CE::message(u.status), ": ", in_degrees(u.amount), " degrees", vertices);
+      return text(CE::message(u.status), ": ", degrees_of(u.amount), " degrees", vertices);
     case CE::Status::ITERATIONS_EXHAUSTED:
       return text(CE::message(u.status), ": the residual is ", u.amount);
     case CE::Status::DEGENERATE_METRIC: // its faces are not those of the file

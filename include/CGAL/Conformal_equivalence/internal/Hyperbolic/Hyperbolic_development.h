@@ -48,7 +48,7 @@ public:
   double closing_error = 0;      // how far the products around vertices are from what they are to be
 
   // `half_angle_cosine` by vertex: of half the prescribed angle at cones; above 1 where none is. \pre the surface is connected
-  Hyperbolic_development(const Hyperbolic_metric<NT>& metric, const std::vector<char>& is_cone, const std::vector<double>& half_angle_cosine)
+  Hyperbolic_development(const Hyperbolic_metric<NT>& metric, const std::vector<char>& is_cone, const std::vector<Wide>& half_angle_cosine)
     : t_(metric.triangulation), is_cone_(is_cone), frame_(t_.number_of_halfedges(), Motion::identity()),
       beyond_(t_.number_of_halfedges(), Motion::identity())
   {
@@ -161,7 +161,7 @@ private:
   }
 
   // Around every vertex inside, seen from there.
-  void measure(const std::vector<double>& half_angle_cosine)
+  void measure(const std::vector<Wide>& half_angle_cosine)
   {
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
     {
@@ -179,7 +179,8 @@ private:
       turn = frame.inverse() * turn * frame;
       double error = is_cone_[v] ? size_of(turn.b) : turn.distance_from_identity();
       if(is_cone_[v] && half_angle_cosine[v] <= 1)
-        error = (std::max)(error, std::abs(std::abs(static_cast<double>(turn.a.re)) - std::abs(half_angle_cosine[v])));
+        error = (std::max)(error, (std::min)(std::abs(static_cast<double>(Wide(turn.a.re - half_angle_cosine[v]))),
+                                             std::abs(static_cast<double>(Wide(turn.a.re + half_angle_cosine[v])))));
       closing_error = (std::max)(closing_error, error);
     }
   }

@@ -354,7 +354,7 @@ private:
     Vertex_vector right = residual.entries, d;
     graph_.clear_fixed(right);
     // no more digits than quadratic convergence has
-    const double tolerance = (std::min)(1e-3, (std::max)(1e-14, 1e-2 * static_cast<double>(size)));
+    const double tolerance = (std::min)(1e-3, (std::max)(1e-13, 1e-2 * static_cast<double>(size)));
     if(!solve(right, tolerance, d))
       return false;
     longest = std::ldexp(largest_entry(d), residual.exponent);

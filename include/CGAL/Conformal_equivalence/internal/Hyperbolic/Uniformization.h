@@ -28,7 +28,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -150,10 +149,10 @@ private:
   // With cones or borders: no group, but a disk.
   void develop(const std::vector<char>& is_cone, const Conformal_conditions<double>& conditions)
   {
-    std::vector<double> half_angle_cosine(given_.number_of_vertices(), -1.);
+    std::vector<Wide> half_angle_cosine(given_.number_of_vertices(), Wide(-1));
     for(Index v = 0; v < given_.number_of_vertices(); ++v)
       if(is_cone[v])
-        half_angle_cosine[v] = conditions.is_fixed(v) ? 2. : std::cos(conditions.angle_sum(v).template radians<double>() / 2);
+        half_angle_cosine[v] = conditions.is_fixed(v) ? Wide(2) : unit_complex(Wide(conditions.angle_sum(v).template radians<Wide>() / 2)).re;
     const Hyperbolic_development<double> disk(result_.metric, is_cone, half_angle_cosine);
     const Triangulation& t = disk.triangulation();
     result_.vertex_points.resize(t.number_of_vertices());
