@@ -831,6 +831,29 @@ BOOST_AUTO_TEST_CASE(target_hyperbolic, * testing::needs_mesh("eight.off"))
   std::set<std::string> after = folder.files();
   after.erase("ball.off");
   BOOST_TEST(after == before, boost::test_tools::per_element());
-  for(const std::string option : {"--cones", "--precision", "--frame"})
-    check_refused({"a.off", "--target", "hyperbolic", option, option == "--frame" ? "unit-square" : "80"}, 2, option);
+  check_refused({"a.off", "--target", "hyperbolic", "--frame", "unit-square"}, 2, "--frame");
+  check_refused({"a.off", "--target", "hyperbolic", "--cones", "auto=3"}, 2, "--cones FILE");
+  check_refused({"a.off", "--target", "hyperbolic", "--boundary", "rectangle"}, 2, "--boundary rectangle");
+}
+
+// The double of a hyperbolic triangle, as an icosahedron with three cones.
+BOOST_AUTO_TEST_CASE(target_hyperbolic_with_cones)
+{
+  const Folder folder;
+  const std::string ball = write_off(folder, "ball.off", testing::icosahedron()), obj = folder / "ball.obj", svg = folder / "ball.svg",
+                    cones = folder.write("cones.txt", "0 180\n3 120\n9 50\n"), flat = folder.write("flat.txt", "0 180\n3 120\n9 90\n");
+  const Run done = run({ball, "--target", "hyperbolic", "--cones", cones, "-o", obj, "--svg", svg});
+  BOOST_TEST_REQUIRE(done.status == 0);
+  BOOST_TEST(contains(done.out, "genus 0"));
+  BOOST_TEST(contains(done.out, "none: the surface has cones or borders"));
+  BOOST_TEST(contains(content(svg), "<circle"));
+  BOOST_TEST(contains(content(obj), "vt "));
+#ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
+  const std::string report = folder / "ball.json";
+  BOOST_TEST_REQUIRE(run({ball, "--target", "hyperbolic", "--cones", cones, "--precision", "200", "--report", report}).status == 0);
+  const std::string json = content(report), name = "\"residual\": ";
+  BOOST_TEST(contains(json, "\"precision_bits\": 200"));
+  BOOST_TEST(std::stod(json.substr(json.find(name) + name.size())) < 1e-45); // 2^-160
+#endif
+  check_refused({ball, "--target", "hyperbolic", "--cones", flat, "--svg", svg}, 1, "smaller by more than 30 degrees");
 }

@@ -12,6 +12,7 @@
 #include <CGAL/Conformal_equivalence/compute_hyperbolic_metric.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_energy.h>
 #include <CGAL/Conformal_equivalence/make_triangulation_on_hyperbolic_surface.h>
+#include <CGAL/Conformal_equivalence/multiprecision.h>
 #include <CGAL/Conformal_equivalence/uniformize_hyperbolic.h>
 
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
@@ -599,6 +600,138 @@ BOOST_AUTO_TEST_CASE(what_has_no_metric_is_refused)
   BOOST_TEST((annulus.status == CE::Status::WRONG_TOPOLOGY));
   BOOST_TEST(annulus.faces.size() == 1u);
   BOOST_TEST((CE::realize_exactly(annulus).status == CE::Status::WRONG_TOPOLOGY));
+}
+
+// ---- Cones and borders
+
+// The double of the triangle with angles pi / p, pi / q, pi / r: three vertices, two faces.
+BOOST_AUTO_TEST_CASE(triangle_groups)
+{
+  const Triangulation t = glued({5, 4, 3, 2, 1, 0});
+  BOOST_TEST_REQUIRE(t.number_of_vertices() == 3u);
+  for(const std::array<int, 3>& k : {std::array<int, 3>{{3, 3, 4}}, std::array<int, 3>{{3, 4, 5}}, std::array<int, 3>{{6, 7, 100}}})
+  {
+    CE::Conformal_conditions<double> conditions(t);
+    double area = pi;
+    for(Index v = 0; v < 3; ++v)
+    {
+      conditions.prescribe_angle_sum(v, 2 * pi / k[v]);
+      area -= pi / k[v];
+    }
+    const auto metric = CE::compute_hyperbolic_metric(scaled(t, {1, -2, 0.5}), conditions);
+    BOOST_TEST_REQUIRE(CE::message(metric.status) == "success");
+    BOOST_TEST(metric.statistics.residual < 1e-24);
+    BOOST_TEST(std::abs(metric.area - 2 * area) < rounding);
+    const Triangulation& found = metric.triangulation; // the same up to numbers: these triangles are acute
+    for(Index h = 0; h < 3; ++h) // the law of cosines for angles, in cosh(l) - 1 = 2 sinh^2(l/2)
+    {
+      const double a = pi / k[found.apex(h)], b = pi / k[found.origin(h)], c = pi / k[found.target(h)], x = double(metric.wide_half_sinh(h));
+      const double expected = (std::cos(a) + std::cos(b) * std::cos(c)) / (std::sin(b) * std::sin(c));
+      BOOST_TEST(std::abs(1 + 2 * x * x - expected) < rounding * expected);
+    }
+  }
+}
+
+// sinh(d/2) for the distance d of two points of the disk.
+double half_sinh(const std::array<double, 2>& z, const std::array<double, 2>& w)
+{
+  const auto depth = [](const std::array<double, 2>& p) { return 1 - p[0] * p[0] - p[1] * p[1]; };
+  return std::hypot(z[0] - w[0], z[1] - w[1]) / std::sqrt(depth(z) * depth(w));
+}
+
+// Edges that were not flipped are as long in the layout as in the metric, on both sides; all edges are as long on one side as on the other; other
+// sides than seams have one place.
+void check_development(const Triangulation& given, const CE::Hyperbolic_uniformization& u)
+{
+  BOOST_TEST_REQUIRE(u.is_laid_out());
+  BOOST_TEST(!u.has_group());
+  BOOST_TEST(u.relation_error < 1e-20);
+  const std::set<Index> flipped(u.metric.flips.begin(), u.metric.flips.end());
+  double worst = 0, apart = 0;
+  for(Index h = 0; h < given.number_of_halfedges(); ++h)
+  {
+    const Index e = given.edge(h), g = given.twin(h);
+    const std::array<double, 2> from = u.corner_points[given.previous(h)], to = u.corner_points[h];
+    if(!flipped.count(e))
+      worst = (std::max)(worst, std::abs(half_sinh(from, to) / double(u.metric.wide_half_sinh(u.metric.triangulation.edge_halfedge(e))) - 1));
+    if(g == given.null_index)
+      continue;
+    worst = (std::max)(worst, std::abs(half_sinh(from, to) / half_sinh(u.corner_points[given.previous(g)], u.corner_points[g]) - 1));
+    const double distance = half_sinh(from, u.corner_points[g]) + half_sinh(to, u.corner_points[given.previous(g)]);
+    if(!u.is_seam[e])
+      apart = (std::max)(apart, distance);
+  }
+  BOOST_TEST(worst < 1e-9); // of points near the border of the disk
+  BOOST_TEST(apart < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(spheres_with_three_cones_are_laid_out)
+{
+  const Triangulation t = testing::triangulation(surface(Cubes{{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}}, 1));
+  const std::array<int, 3> k = {{2, 3, 7}};
+  CE::Conformal_conditions<double> conditions(t);
+  for(Index i = 0; i < 3; ++i)
+    conditions.prescribe_angle_sum(5 * i, 2 * pi / k[i]);
+  const auto u = CE::internal::Uniformization::run(t, conditions, CE::Solver_options(),
+                                                   CE::internal::make_factorization<CE::Default_solver_traits>());
+  BOOST_TEST_REQUIRE(bool(u));
+  BOOST_TEST(std::abs(u.metric.area - pi / 21) < rounding); // 2 pi (1 - 1/2 - 1/3 - 1/7)
+  check_development(t, u);
+  // seams are a tree whose ends are cones: either each has its rotation, or two have theirs, and the product of both is that of the third
+  BOOST_TEST((u.generators.size() == 2 || u.generators.size() == 3));
+  std::set<int> orders;
+  for(const auto& g : u.generators)
+    for(const int n : k)
+      if(std::abs(std::abs(g.a[0]) - std::cos(pi / n)) < 1e-9)
+        orders.insert(n);
+  BOOST_TEST(orders.size() == u.generators.size());
+  BOOST_TEST((CE::realize_exactly(u).status == CE::Status::WRONG_TOPOLOGY));
+}
+
+BOOST_AUTO_TEST_CASE(tori_and_handles_with_cones_are_laid_out)
+{
+  for(const int genus : {1, 2})
+  {
+    const Triangulation t = testing::triangulation(surface(plate(genus), 2));
+    CE::Conformal_conditions<double> conditions(t);
+    conditions.prescribe_angle_sum(0, CE::Exact_angle<double>::pi_times(1));
+    conditions.prescribe_angle_sum(9, CE::Exact_angle<double>::pi_times(genus == 1 ? 1 : 3));
+    const auto u = CE::internal::Uniformization::run(t, conditions, CE::Solver_options(),
+                                                     CE::internal::make_factorization<CE::Default_solver_traits>());
+    BOOST_TEST_REQUIRE(bool(u));
+    BOOST_TEST(std::abs(u.metric.area - (genus == 1 ? 2 * pi : 4 * pi)) < rounding);
+    check_development(t, u);
+  }
+}
+
+// Shorter than it is.
+BOOST_AUTO_TEST_CASE(borders_of_given_u_are_laid_out)
+{
+  const Triangulation t = testing::triangulation(testing::annulus(3, 9));
+  CE::Conformal_conditions<double> conditions(t);
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(t.is_border_vertex(v))
+      conditions.fix_log_scale_factor(v, -1.);
+  const auto u = CE::internal::Uniformization::run(t, conditions, CE::Solver_options(),
+                                                   CE::internal::make_factorization<CE::Default_solver_traits>());
+  BOOST_TEST_REQUIRE(bool(u));
+  BOOST_TEST(!u.is_doubled);
+  check_development(t, u);
+}
+
+// As many digits as are asked for.
+BOOST_AUTO_TEST_CASE(residuals_of_two_hundred_bits)
+{
+  typedef CE::Multiprecision_number Number;
+  const CE::Working_precision precision(200);
+  const Triangulation rounded = testing::triangulation(surface(plate(2), 3));
+  CE::Intrinsic_triangulation<Number> t = rounded.with_lengths(std::vector<Number>(rounded.lengths().begin(), rounded.lengths().end()));
+  CE::Conformal_conditions<Number> conditions(t);
+  conditions.prescribe_angle_sum(3, CE::Exact_angle<Number>::pi_times(1));
+  const auto metric = CE::compute_hyperbolic_metric(t, conditions, CGAL::parameters::gradient_tolerance(1e-50));
+  BOOST_TEST(CE::message(metric.status) == "success");
+  BOOST_TEST(metric.statistics.residual < 1e-50);
+  BOOST_TEST(std::abs(metric.area - 5 * pi) < rounding);
 }
 
 // ---- Groups

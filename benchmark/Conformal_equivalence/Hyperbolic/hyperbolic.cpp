@@ -5,7 +5,7 @@
 //
 // Hyperbolic surfaces of closed meshes; those that are not connected or have a genus below 2 are passed over. `plate:N:G` is a thin plate of about
 // N vertices with G handles. Beside the seconds of the hyperbolic metric those of a Euclidean one of the same mesh, also with flips, whose
-// curvature is spread evenly over the vertices. Processor seconds.
+// curvature is spread evenly over the vertices: processor seconds, the least of several runs, which take turns.
 
 #include "../include/Processor_stopwatch.h"
 #include "../include/benchmark_meshes.h"
@@ -21,11 +21,13 @@
 
 #include <CGAL/number_utils.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <string>
 
 namespace {
@@ -64,9 +66,15 @@ void print(const std::string& specification)
   if(pieces.components.size() != 1 || pieces.components[0].number_of_borders != 0 || pieces.components[0].genus() < 2
      || pieces.number_of_isolated_vertices != 0)
     return;
-  const Processor_stopwatch watch;
-  const auto metric = CE::compute_hyperbolic_metric(t, CE::Conformal_conditions<double>(t));
-  const double seconds = watch.seconds(), euclidean = seconds_of_euclidean_metric(t, double(pieces.components[0].euler_characteristic()));
+  double seconds = std::numeric_limits<double>::infinity(), euclidean = seconds;
+  CE::Hyperbolic_metric<double> metric;
+  for(std::uint32_t n = 0; n < 1 + 20000 / t.number_of_vertices() && n < 5; ++n)
+  {
+    const Processor_stopwatch watch;
+    metric = CE::compute_hyperbolic_metric(t, CE::Conformal_conditions<double>(t));
+    seconds = (std::min)(seconds, watch.seconds());
+    euclidean = (std::min)(euclidean, seconds_of_euclidean_metric(t, double(pieces.components[0].euler_characteristic())));
+  }
   const Processor_stopwatch watch_of_all;
   const auto u = CE::uniformize_hyperbolic(mesh);
   const double seconds_of_all = watch_of_all.seconds();
@@ -74,8 +82,9 @@ void print(const std::string& specification)
   const auto exact = CE::realize_exactly(u);
   const double genus = double(pieces.components[0].genus());
   print_row({ name_of(specification), to_text(t.number_of_vertices(), 9), to_text(genus, 9), CE::message(metric.status),
-              to_text(metric.statistics.number_of_iterations, 9), to_text(metric.flips.size(), 9), to_text(metric.statistics.residual, 2),
-              to_text(metric.area / (4 * CGAL_PI * (genus - 1)) - 1, 2), to_text(seconds, 3), to_text(euclidean, 3), to_text(seconds_of_all, 3),
+              to_text(metric.statistics.number_of_iterations, 9), to_text(metric.statistics.number_of_factorizations, 9),
+              to_text(metric.flips.size(), 9), to_text(metric.statistics.residual, 2), to_text(metric.area / (4 * CGAL_PI * (genus - 1)) - 1, 2),
+              to_text(seconds, 3), to_text(euclidean, 3), to_text(seconds / euclidean, 3), to_text(seconds_of_all, 3),
               to_text(u.relation_error, 2), CE::message(exact.status), to_text(exact.number_of_digits(), 9),
               to_text(exact.largest_length_difference(), 2), to_text(watch_of_exact.seconds(), 3) });
 }
@@ -84,8 +93,8 @@ void print(const std::string& specification)
 
 int main(int argc, char* argv[])
 {
-  print_head({ "mesh", "vertices", "genus", "metric", "steps", "flips", "residual", "area error", "s", "s Euclidean", "s with layout",
-               "relation error", "exact", "digits", "length difference", "s exact" });
+  print_head({ "mesh", "vertices", "genus", "metric", "steps", "factors", "flips", "residual", "area error", "s", "s Euclidean", "ratio",
+               "s with layout", "relation error", "exact", "digits", "length difference", "s exact" });
   for(int i = 1; i < argc; ++i)
     try
     {

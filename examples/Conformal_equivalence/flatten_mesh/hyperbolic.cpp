@@ -4,6 +4,7 @@
 // The hyperbolic surface that a mesh is conformally equivalent to: its picture, its group, its figures.
 
 #include "../include/flatten_mesh/hyperbolic.h"
+#include "../include/flatten_mesh/conditions.h"
 #include "../include/flatten_mesh/Disk_drawing.h"
 #include "../include/flatten_mesh/figures.h"
 #include "../include/flatten_mesh/Given_surface.h"
@@ -11,6 +12,7 @@
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/Output_files.h"
 #include "../include/flatten_mesh/page_text.h"
+#include "../include/flatten_mesh/precision.h"
 #include "../include/flatten_mesh/Progress.h"
 #include "../include/flatten_mesh/report_entries.h"
 #include "../include/flatten_mesh/Solver_traits.h"
@@ -18,11 +20,14 @@
 #include "../include/flatten_mesh/write_outputs.h"
 
 #include <CGAL/Conformal_equivalence/Exact_hyperbolic_surface.h>
+#include <CGAL/Conformal_equivalence/compute_hyperbolic_metric.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/IO/write_OBJ.h>
+#include <CGAL/Conformal_equivalence/multiprecision.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
+#include <CGAL/Conformal_equivalence/read_conditions.h>
 #include <CGAL/Conformal_equivalence/uniformize_hyperbolic.h>
 
 #include <CGAL/number_utils.h>
@@ -33,10 +38,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -68,6 +75,12 @@ std::string list_of_elements(const char* one, const char* several, const std::ve
   return numbers.size() > 10 ? list + ", ..." : list;
 }
 
+double degrees_of(double angle)
+{
+  const double degrees = angle / CGAL_PI * 180, nearest = std::round(degrees * 1e6) / 1e6;
+  return std::abs(degrees - nearest) < 1e-9 ? nearest : degrees; // 90, and not 90.00000000000001
+}
+
 std::string explanation(const Given_surface& given, const Uniformization& u)
 {
   const std::string faces = list_of_elements("face", "faces", u.faces, [&](std::uint32_t f) { return given.face(Face(f)); }),
@@ -75,7 +88,14 @@ std::string explanation(const Given_surface& given, const Uniformization& u)
   switch(u.status)
   {
     case CE::Status::WRONG_TOPOLOGY:
-      return "a surface whose Euler characteristic is not negative has no hyperbolic metric without cones (borders become geodesics)" + faces;
+      return "a surface whose Euler characteristic is not negative has no hyperbolic metric without cones (borders become geodesics), whose "
+             "curvatures (360 - angle) must sum up to more than " + text(degrees_of(u.amount), " degrees (--cones FILE)") + faces;
+    case CE::Status::GAUSS_BONNET_VIOLATED:
+    case CE::Status::NO_ANGLE_LEFT:
+      return text("there is no hyperbolic metric with these angles, which leave it no area: by the Gauss-Bonnet formula they must be smaller by more "
+                  "than ", degrees_of(-u.amount), " degrees in all", u.is_doubled ? " (of the double of the mesh)" : "") + vertices;
+    case CE::Status::ANGLE_OUT_OF_RANGE:
+      return text(CE::message(u.status), ": ", degrees_of(u.amount), " degrees", vertices);
     case CE::Status::ITERATIONS_EXHAUSTED:
       return text(CE::message(u.status), ": the residual is ", u.amount);
     case CE::Status::DEGENERATE_METRIC: // its faces are not those of the file
@@ -95,8 +115,10 @@ Lines summary_of(const Given_surface& given, const Mesh& mesh, const Uniformizat
   lines.emplace_back("Newton steps", text(s.number_of_iterations, ", edges flipped ", u.metric.flips.size()));
   lines.emplace_back("residual", text(s.residual));
   lines.emplace_back("u", text(s.least_u, " to ", s.largest_u));
-  lines.emplace_back("error of the relation", text(u.relation_error));
-  if(bool(exact))
+  lines.emplace_back(u.has_group() ? "error of the relation" : "error around vertices", text(u.relation_error));
+  if(! u.has_group())
+    lines.emplace_back("group", "none: the surface has cones or borders");
+  else if(bool(exact))
     lines.emplace_back("exact group", text(exact.number_of_digits(), " digits, lengths of edges differ by ", exact.largest_length_difference()));
   else
     lines.emplace_back("exact group", text("none: ", CE::message(exact.status)));
@@ -133,7 +155,8 @@ nlohmann::ordered_json json_of(const std::vector<Exact_surface::Motion>& motions
   return result;
 }
 
-std::string json_report(const Options& options, const Mesh& mesh, const Uniformization& u, const Exact_surface& exact, double seconds)
+std::string json_report(const Options& options, const Mesh& mesh, const Uniformization& u, const std::vector<CE::Multiprecision_number>& precise_u,
+                        const Exact_surface& exact, double seconds)
 {
   const CE::Statistics& s = u.metric.statistics;
   nlohmann::ordered_json report;
@@ -148,14 +171,21 @@ std::string json_report(const Options& options, const Mesh& mesh, const Uniformi
   report["flips"] = u.metric.flips.size();
   report["residual"] = s.residual;
   report["u"] = { s.least_u, s.largest_u };
+  if(! precise_u.empty())
+  {
+    report["precision_bits"] = options.precision_in_bits;
+    for(const CE::Multiprecision_number& x : precise_u)
+      report["log_scale_factors"].push_back(x.str());
+  }
   report["area"] = u.metric.area;
+  report["has_group"] = u.has_group();
   report["relation_error"] = u.relation_error;
   report["motions"] = "z -> (a z + b) / (conj(b) z + conj(a))";
   report["generators"] = json_of(u.generators);
   report["relation"] = u.relation;
   report["canonical_words"] = u.canonical_words;
   report["canonical_generators"] = json_of(u.canonical_generators);
-  if(bool(exact))
+  if(u.has_group() && bool(exact))
     report["exact"] = { {"largest_length_difference", exact.largest_length_difference()}, {"digits", exact.number_of_digits()},
                         {"generators", json_of(exact.generators())}, {"canonical_generators", json_of(exact.canonical_generators())} };
   report["seconds"] = seconds;
@@ -185,6 +215,62 @@ UV_map corner_map(Mesh& mesh, const CE::Imported_mesh<Mesh>& imported, const Uni
   return uv;
 }
 
+// What is prescribed. Borders are geodesics if nothing is said of them: their angles are those of a straight line.
+Conditions hyperbolic_conditions(const Options& options, const Given_surface& given, Mesh& mesh)
+{
+  Conditions conditions(given, mesh);
+  set_conditions(options, mesh, given, conditions);
+  if(std::none_of(options.given.begin(), options.given.end(), [](const Given_option& o) { return o.name == "boundary"; }))
+    for(Vertex v : mesh.vertices())
+      if(is_on_border(mesh, v))
+        conditions.is_constrained[v] = false;
+  return conditions;
+}
+
+auto condition_parameters(const Options& options, const Conditions& conditions)
+{
+  return CGAL::parameters::mollification(options.mollification)
+                          .cone_angle_map(conditions.cone_angle)
+                          .border_angle_map(conditions.border_angle)
+                          .vertex_is_constrained_map(conditions.is_constrained)
+                          .prescribed_log_scale_factor_map(conditions.u);
+}
+
+Uniformization uniformization(const Options& options, const Conditions& conditions, const Mesh& mesh, Progress& progress)
+{
+  Progress_visitor visitor(progress);
+  return CE::uniformize_hyperbolic(mesh, condition_parameters(options, conditions).gradient_tolerance(options.tolerance)
+                                                                                  .number_of_iterations(options.maximum_number_of_iterations)
+                                                                                  .retriangulation(options.retriangulation)
+                                                                                  .visitor(std::ref(visitor))
+                                                                                  .sparse_linear_solver(Solver_traits(options.solver)));
+}
+
+// The same metric with more digits.
+CE::Hyperbolic_metric<CE::Multiprecision_number> precise_metric(const Options& options, const Conditions& given, const Mesh& mesh, bool is_doubled,
+                                                                Progress& progress)
+{
+  typedef CE::Multiprecision_number Number;
+  const unsigned int most = 1000; // so that the tolerance is a `double`
+  Progress_visitor visitor(progress);
+  const CE::Imported_mesh<Mesh, Number> imported = CE::import_mesh<Number>(mesh, CGAL::parameters::mollification(options.mollification));
+  std::vector<std::uint32_t> missing; // none: there is a condition at each vertex
+  const CE::Conformal_conditions<Number> conditions = CE::read_conditions(imported, missing, condition_parameters(options, given));
+  const auto find = [&](const CE::Intrinsic_triangulation<Number>& t, const CE::Conformal_conditions<Number>& c)
+  {
+    return CE::compute_hyperbolic_metric(
+      t, c, CGAL::parameters::gradient_tolerance(std::ldexp(1., -int((std::min)(most, options.precision_in_bits / 5 * 4))))
+                             .number_of_iterations(options.maximum_number_of_iterations)
+                             .retriangulation(options.retriangulation)
+                             .visitor(std::ref(visitor))
+                             .sparse_linear_solver(Solver_traits(options.solver)));
+  };
+  if(! is_doubled)
+    return find(imported.triangulation, conditions);
+  const CE::internal::Surface_double<Number> twofold(imported.triangulation);
+  return find(twofold.triangulation, twofold.conditions(conditions));
+}
+
 } // namespace
 
 void run_hyperbolic(const Options& options, Output_files& files, std::ostream& out, std::ostream& err)
@@ -194,22 +280,26 @@ void run_hyperbolic(const Options& options, Output_files& files, std::ostream& o
   const Stopwatch watch;
   Mesh mesh;
   const Given_surface given = read_surface(options.input, options.repair, mesh, options.format);
-  Uniformization u;
-  {
-    Progress progress(err, kind_of_progress(err, options.quiet));
-    Progress_visitor visitor(progress);
-    u = CE::uniformize_hyperbolic(mesh, CGAL::parameters::mollification(options.mollification)
-                                          .gradient_tolerance(options.tolerance)
-                                          .number_of_iterations(options.maximum_number_of_iterations)
-                                          .retriangulation(options.retriangulation)
-                                          .visitor(std::ref(visitor))
-                                          .sparse_linear_solver(Solver_traits(options.solver)));
-  }
+  const Conditions conditions = hyperbolic_conditions(options, given, mesh);
+  std::optional<Progress> progress(std::in_place, err, kind_of_progress(err, options.quiet));
+  Uniformization u = uniformization(options, conditions, mesh, *progress);
   if(! u)
     fail(options.input, ": ", explanation(given, u));
   if(! u.is_laid_out())
     fail(options.input, ": only connected surfaces are laid out, without vertices that have no face");
-  const Exact_surface exact = CE::realize_exactly(u);
+  const CE::Working_precision precision(options.precision_in_bits);
+  std::vector<CE::Multiprecision_number> precise_u;
+  if(options.precision_in_bits > bits_of_double)
+  {
+    CE::Hyperbolic_metric<CE::Multiprecision_number> metric = precise_metric(options, conditions, mesh, u.is_doubled, *progress);
+    if(! metric)
+      fail(options.input, ": ", CE::message(metric.status), ": the residual is ", metric.amount);
+    u.metric.statistics = metric.statistics;
+    precise_u = std::move(metric.log_scale_factors);
+    precise_u.resize(mesh.number_of_vertices()); // without those of the other half of a double
+  }
+  progress.reset();
+  const Exact_surface exact = u.has_group() ? CE::realize_exactly(u) : Exact_surface();
   const double seconds = watch.seconds();
   const CE::Imported_mesh<Mesh> imported(mesh);
   const Lines lines = summary_of(given, mesh, u, exact, seconds);
@@ -230,7 +320,7 @@ void run_hyperbolic(const Options& options, Output_files& files, std::ostream& o
   }
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
   if(! options.report.empty())
-    files.write(options.report, [&](std::ostream& o) { return (o << json_report(options, mesh, u, exact, seconds)).good(); });
+    files.write(options.report, [&](std::ostream& o) { return (o << json_report(options, mesh, u, precise_u, exact, seconds)).good(); });
 #endif
   files.commit();
   if(options.quiet)

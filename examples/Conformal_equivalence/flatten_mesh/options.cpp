@@ -62,9 +62,10 @@ po::options_description visible_options()
     ("target", word("plane|sphere|disk|hyperbolic", "plane"), "where the surface is mapped to\n"
        "sphere: the unit sphere, for closed surfaces without handles; the vertices of the OBJ file are points of the sphere\n"
        "disk: the unit disk, for topological disks; all border vertices are on the circle\n"
-       "hyperbolic: the hyperbolic surface, in Poincare's disk, for one connected surface of negative Euler characteristic; borders become "
-       "geodesics. Written are the disk coordinates of the corners (-o), a picture with copies (--svg, --html), and the group, "
-       "rounded and in exact numbers (--report)\n"
+       "hyperbolic: the hyperbolic surface, in Poincare's disk, for one connected surface of negative Euler characteristic, or with cones whose "
+       "curvatures leave an area; borders become geodesics, unless there is --boundary. Written are the disk coordinates of the corners (-o), a "
+       "picture with copies (--svg, --html), and, without cones, the group, rounded and in exact numbers (--report). With --precision BITS u is "
+       "found with so many digits (--report), while layout and group have those of two doubles\n"
        "Several components: each has a sphere or disk of its own, the i-th (from 0) of n with its centre in (2.25 (i mod c), 2.25 floor(i / c), 0), "
        "where c is the root of n, rounded up; spheres are objects component_i of the OBJ file, unless INPUT has objects")
     ("moebius-weights", word("vertices|areas", "vertices"), "what has its barycentre in the centre "
@@ -254,9 +255,11 @@ void parse_options_of_target(const po::variables_map& values, const std::string&
   if(options.target == Target::HYPERBOLIC && (! options.glb.empty() || ! options.ply.empty()))
     throw Usage_error(target + " has no output in the formats GLB and PLY; -o *.obj has the disk coordinates");
   if(options.target == Target::HYPERBOLIC)
-    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by", "precision",
+    exclude(values, target, {"vertex-at-infinity", "moebius-weights", "refine", "projective", "require-injective", "color-by",
                              "flat", "dxf", "true-scale"});
-  exclude(values, target, {"cones", "seamless", "frame", "keep-border", "local-repair"});
+  else
+    exclude(values, target, {"cones"});
+  exclude(values, target, {"seamless", "frame", "keep-border", "local-repair"});
   if(options.target == Target::SPHERE)
     exclude(values, target, {"projective", "html", "flat", "dxf", "true-scale"});
   if(is_given(values, "disk-centre"))
@@ -270,7 +273,8 @@ void parse_target(const po::variables_map& values, Options& options)
 {
   const std::string name = values["target"].as<std::string>(), option = "--target " + name;
   const bool is_given = ! values["target"].defaulted(), is_boundary_disk = options.target == Target::DISK;
-  if(values.count("boundary") && ((is_boundary_disk && is_given && name != "disk") || (! is_boundary_disk && name != "plane")))
+  const bool takes_boundary = name == "plane" || (name == "hyperbolic" && ! options.is_rectangle);
+  if(values.count("boundary") && ((is_boundary_disk && is_given && name != "disk") || (! is_boundary_disk && ! takes_boundary)))
     throw Usage_error(text(option, " and --boundary ", values["boundary"].as<std::vector<std::string> >()[0], " exclude each other"));
   if(! is_boundary_disk)
     options.target = name == "sphere" ? Target::SPHERE : name == "disk" ? Target::DISK : name == "hyperbolic" ? Target::HYPERBOLIC : Target::PLANE;
@@ -369,6 +373,8 @@ void parse_cones(const po::variables_map& values, Options& options)
   const bool is_auto = cones == "auto" || cones.compare(0, 5, "auto=") == 0, is_seamless = values["seamless"].as<bool>();
   if(is_given(values, "cones") && cones.empty())
     throw Usage_error("--cones needs the name of a file");
+  if(is_auto && options.target == Target::HYPERBOLIC)
+    throw Usage_error("--target hyperbolic takes --cones FILE, but not --cones auto");
   require(is_auto, values, "--cones auto", {"max-scale", "max-area", "max-rms", "cone-measure"});
   require(is_seamless, values, "--seamless", {"tiles", "distortion", "lattice-coordinates", "holonomy"});
   require(is_seamless || ! cones.empty(), values, "--cones or --seamless", {"quantize"});

@@ -107,10 +107,10 @@ private:
 /// are rounded; these two solve linear equations such that the relation holds exactly. More digits are taken until the surface is certified, see
 /// `Exact_hyperbolic_surface`, and near enough.
 ///
-/// \param u a uniformization with a layout
+/// \param u a uniformization with a group
 /// \param tolerance the largest difference of the lengths of an edge
 ///
-/// \return the surface, with a status: `OK`; `WRONG_TOPOLOGY`, if `u` has no layout; `NOT_INJECTIVE`, if triangles, `faces`, are not
+/// \return the surface, with a status: `OK`; `WRONG_TOPOLOGY`, if `u` has no group; `NOT_INJECTIVE`, if triangles, `faces`, are not
 ///         counterclockwise with as many digits as `u` has; `ITERATIONS_EXHAUSTED`, if these do not suffice for the relation (`amount`: by how
 ///         much `u` misses it; genera of a hundred or so); `BOUND_NOT_MET`, if lengths differ by `amount`, more than `tolerance`.
 ///

@@ -25,13 +25,12 @@ namespace Conformal_equivalence {
 
 /// \ingroup PkgConformalEquivalenceHyperbolic
 ///
-/// The hyperbolic metric of a surface, and, if the surface is closed and connected and has no cones, its layout in the unit disk (Poincaré's
-/// model) and its group. A surface with border that was solved by its double, of which the border is a geodesic, is laid out as this double: what
-/// belongs to the surface has the same numbers there.
+/// The hyperbolic metric of a surface, and, if the surface is connected, its layout in the unit disk (Poincaré's model). A surface with border that
+/// was solved by its double, of which the border is a geodesic, is laid out as this double: what belongs to the surface has the same numbers there.
 ///
-/// Every vertex has one chosen *lift* in the disk. A halfedge from i to j, lifted such that it begins at the lift of i, ends at the lift of j
-/// moved by a deck transformation, whose word is the *label* of the halfedge: the letter k > 0 stands for `generators[k - 1]`, and -k for its
-/// inverse; a word means the product of its letters.
+/// Without cones and borders there is a group. Every vertex has one chosen *lift* in the disk. A halfedge from i to j, lifted such that it begins at
+/// the lift of i, ends at the lift of j moved by a deck transformation, whose word is the *label* of the halfedge: the letter k > 0 stands for
+/// `generators[k - 1]`, and -k for its inverse; a word means the product of its letters.
 struct Hyperbolic_uniformization : public Outcome
 {
   typedef std::uint32_t Index;  ///< of vertices, halfedges, edges and faces
@@ -49,7 +48,9 @@ struct Hyperbolic_uniformization : public Outcome
   bool is_doubled = false;            ///< whether `metric`, and all that follows, is that of the double of a surface with border
 
   /// \name Layout
-  /// Empty if nothing was laid out: if the surface is not connected, has cones, a border with prescribed u, or vertices without a face.
+  /// Empty if nothing was laid out: if the surface is not connected, or has vertices without a face. With cones, or a border where u is
+  /// prescribed, there are `vertex_points`, `corner_points`, `is_seam`, `generators` and `relation_error` only: the surface is cut along seams that
+  /// join the cones, and end there or at the border.
   /// @{
 
   std::vector<std::array<double, 2> > vertex_points; ///< the chosen lifts, by vertex
@@ -65,14 +66,17 @@ struct Hyperbolic_uniformization : public Outcome
   /// the lift of the target of a halfedge of the triangulation given that lies at its `corner_points`: the chosen one, moved by this word
   std::vector<std::vector<std::int32_t> > corner_words;
 
-  std::vector<Motion> generators;                    ///< of 2g loops through one vertex, the shortest ones
+  /// of 2g loops through one vertex, the shortest ones. With cones or borders: one for each path of seams, from the place of one side to that of
+  /// the other
+  std::vector<Motion> generators;
   std::vector<std::int32_t> relation;                ///< the relation of the generators, a word of 4g letters
 
   /// canonical generators a_1, b_1, ..., a_g, b_g, for which the product of commutators a_1 b_1 a_1^-1 b_1^-1 ... is 1, as words in `generators`
   std::vector<std::vector<std::int32_t> > canonical_words;
   std::vector<Motion> canonical_generators;          ///< the canonical generators
 
-  /// how far the relation, computed from generators with twice the digits of `double`, is from the identity
+  /// how far the relation, computed from generators with twice the digits of `double`, is from the identity. With cones or borders: the largest
+  /// such error of the motion once around a vertex, which is the identity, or at a cone the rotation by its angle
   double relation_error = 0;
 
   /// @}
@@ -84,6 +88,9 @@ struct Hyperbolic_uniformization : public Outcome
 
   /// is `true` iff there is a layout.
   bool is_laid_out() const { return !vertex_points.empty(); }
+
+  /// is `true` iff there is a group: for closed connected surfaces without cones.
+  bool has_group() const { return !wide_generators.empty(); }
 };
 
 } // namespace Conformal_equivalence

@@ -66,7 +66,7 @@ namespace Conformal_equivalence {
 ///         `DEGENERATE_METRIC` (faces of the triangulation of the metric that violate the triangle inequality, which only happens at a border; or,
 ///         with `Retriangulation::ALWAYS`, of the one given), `ITERATIONS_EXHAUSTED`, `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`, `OUT_OF_MEMORY`.
 ///
-/// Time is that of about ten sparse Cholesky factorizations.
+/// Time is that of a few sparse Cholesky factorizations, each of which serves for several Newton steps.
 template <typename NT, typename NamedParameters = parameters::Default_named_parameters>
 Hyperbolic_metric<NT> compute_hyperbolic_metric(Intrinsic_triangulation<NT> t, const Conformal_conditions<NT>& conditions,
                                                 const NamedParameters& np = parameters::default_values())

@@ -55,14 +55,14 @@ Conformal_conditions<double> read_hyperbolic_conditions(const Imported_mesh<Tria
 /// \ingroup PkgConformalEquivalenceHyperbolic
 ///
 /// finds the hyperbolic surface that a triangle mesh is discretely conformally equivalent to: the one metric of curvature -1 within its conformal
-/// class. If the mesh is closed and connected and has no cones, the surface is also laid out in the unit disk, Poincaré's model of the hyperbolic
-/// plane, around a vertex in the center; and its group is found, by which its copies tile the disk: generators of 2g loops with their relation,
-/// and canonical ones. `realize_exactly()` makes of this a surface in rational numbers, and `make_triangulation_on_hyperbolic_surface()` a
-/// `CGAL::Triangulation_on_hyperbolic_surface_2`.
+/// class. If the mesh is connected, it is also laid out in the unit disk, Poincaré's model of the hyperbolic plane, cut open along seams that join
+/// its cones. If it is closed and has no cones, the layout is around a vertex in the center, and its group is found, by which its copies tile the
+/// disk: generators of 2g loops with their relation, and canonical ones. `realize_exactly()` makes of this a surface in rational numbers, and
+/// `make_triangulation_on_hyperbolic_surface()` a `CGAL::Triangulation_on_hyperbolic_surface_2`.
 ///
 /// A closed mesh of genus 2 or more needs no conditions. A closed mesh of genus 0 or 1 needs cones (`cone_angle_map`) whose curvatures 2 pi -
 /// angle sum up to more than 4 pi or 0. Borders are geodesics unless conditions say otherwise: the double of the surface is uniformized. If u is
-/// fixed somewhere on the border, borders keep their edges, and nothing is laid out.
+/// fixed somewhere on the border, borders keep their edges, and the surface itself is laid out.
 ///
 /// Edges are flipped on the way, see `compute_hyperbolic_metric()`. The straight triangles of the mesh, between the places of its corners, may
 /// then be flipped, as they are not those of the metric; its own triangulation is in the result, too.

@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A picture of a closed hyperbolic surface in Poincare's disk: the domain that is laid out, its triangles with sides along geodesics, which are
-// arcs of circles orthogonal to the unit circle, and the outlines of its copies around it.
+// A picture of a hyperbolic surface in Poincare's disk: the domain that is laid out, its triangles with sides along geodesics, which are
+// arcs of circles orthogonal to the unit circle, and, if there is a group, the outlines of its copies around it.
 
 #ifndef FLATTEN_MESH_DISK_DRAWING_H
 #define FLATTEN_MESH_DISK_DRAWING_H
@@ -48,7 +48,8 @@ public:
       buffer << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-1.02 -1.02 2.04 2.04\" width=\"1000\" height=\"1000\">\n"
              << "<rect x=\"-1.02\" y=\"-1.02\" width=\"2.04\" height=\"2.04\" fill=\"#ffffff\"/>\n"
              << "<g fill=\"none\" stroke-linejoin=\"round\">\n";
-      write_copies(buffer);
+      if(u_.has_group())
+        write_copies(buffer);
       write_domain(buffer);
       buffer << "<circle r=\"1\" stroke=\"#222222\" stroke-width=\"0.004\"/>\n</g></svg>\n";
     }
@@ -122,7 +123,7 @@ private:
   void write_outline(Text_buffer& out, const Motion& m) const
   {
     for(std::uint32_t h = 0; h < t_.number_of_halfedges(); ++h)
-      if(u_.is_seam[t_.edge(h)])
+      if(u_.is_seam[t_.edge(h)] || t_.is_border(h))
       {
         write_edge(out, moved(m, origin(h)), moved(m, target(h)));
         out << '\n';

@@ -45,7 +45,7 @@ public:
   Exact_realization(const Hyperbolic_uniformization& u, double tolerance) : label_(u.labels)
   {
     status = Status::WRONG_TOPOLOGY;
-    if(!u.is_laid_out())
+    if(!u.has_group())
       return;
     const double hopeless = 1e-3; // nothing near to such generators satisfies the relation
     for(const int bits : {24, 32, 48, 64, 80, 96}) // the numbers given have about a hundred

@@ -16,6 +16,7 @@
 
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_linear_solver.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/hyperbolic_triangle.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
@@ -39,19 +40,22 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The scaled x of the sides of a face, and their hyperbolic cosines.
+// The scaled x of the sides of a face, their hyperbolic cosines, and these less 1.
 template <typename NT>
 struct Hyperbolic_sides
 {
-  std::array<NT, 3> x, y;
+  std::array<NT, 3> x, y, m;
 
   Hyperbolic_sides(const NT& x0, const NT& x1, const NT& x2)
-    : x{{x0, x1, x2}}, y{{hyperbolic_cosine(x0), hyperbolic_cosine(x1), hyperbolic_cosine(x2)}}
+    : x{{x0, x1, x2}}, y{{hyperbolic_cosine(x0), hyperbolic_cosine(x1), hyperbolic_cosine(x2)}},
+      m{{hyperbolic_cosine_minus_one(x[0], y[0]), hyperbolic_cosine_minus_one(x[1], y[1]), hyperbolic_cosine_minus_one(x[2], y[2])}}
   {}
 
-  Hyperbolic_sides(const std::array<NT, 3>& sines, const std::array<NT, 3>& cosines) : x(sines), y(cosines) {}
+  Hyperbolic_sides(const std::array<NT, 3>& sines, const std::array<NT, 3>& cosines, const std::array<NT, 3>& cosines_minus_one)
+    : x(sines), y(cosines), m(cosines_minus_one)
+  {}
 
-  Hyperbolic_incircle_form<NT> triangle() const { return Hyperbolic_incircle_form<NT>(x, y); }
+  Hyperbolic_incircle_form<NT> triangle() const { return Hyperbolic_incircle_form<NT>(x, y, m); }
 };
 
 // The same of all edges, each of which has two faces.
@@ -62,19 +66,24 @@ public:
   // `x` by edge, scaled
   explicit Hyperbolic_edges(std::vector<NT> x) : x_(std::move(x))
   {
+    y_.reserve(x_.size());
+    m_.reserve(x_.size());
     for(const NT& sine : x_)
+    {
       y_.push_back(hyperbolic_cosine(sine));
+      m_.push_back(hyperbolic_cosine_minus_one(sine, y_.back()));
+    }
   }
 
   template <typename Length>
   Hyperbolic_sides<NT> sides_of_face(const Intrinsic_triangulation<Length>& t, std::uint32_t f) const
   {
     const std::uint32_t a = t.edge(3 * f), b = t.edge(3 * f + 1), c = t.edge(3 * f + 2);
-    return Hyperbolic_sides<NT>({{x_[a], x_[b], x_[c]}}, {{y_[a], y_[b], y_[c]}});
+    return Hyperbolic_sides<NT>({{x_[a], x_[b], x_[c]}}, {{y_[a], y_[b], y_[c]}}, {{m_[a], m_[b], m_[c]}});
   }
 
 private:
-  std::vector<NT> x_, y_;
+  std::vector<NT> x_, y_, m_;
 };
 
 template <typename NT, typename Wide>
@@ -117,25 +126,34 @@ public:
   const std::vector<double>& weights() const { return weight_; }            // w, by edge
   const std::vector<Index>& broken_faces() const { return broken_; }        // that violate the triangle inequality
   const std::vector<Index>& flips() const { return flips_; }                // in order
+  std::size_t number_of_changes() const { return changes_; }                // of the triangulation; it never falls
   const std::vector<double>& sensitivities() const { return sensitivity_; } // of the angle sums to relative errors of x, by vertex
   Delaunay_flipper<NT>& flipper() { return *flipper_; }
 
-  // The lower half of minus the derivative of the angle sums, for the free vertices.
+  // Minus the derivative of the angle sums.
+  Coupled_vertices hessian() const
+  {
+    Coupled_vertices result;
+    result.coupling.resize(t_.number_of_edges());
+    result.own.assign(t_.number_of_vertices(), 0.);
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+    {
+      const Index i = t_.origin(t_.edge_halfedge(e)), j = t_.target(t_.edge_halfedge(e));
+      const double x = scale_[i] * x_[e] * scale_[j], cosine_square = 1 + x * x; // 1 - tanh^2 = 1 / cosh^2
+      result.coupling[e] = 2 * weight_[e] / cosine_square;
+      const double own = 2 * weight_[e] * (x / cosine_square * x);
+      result.own[i] += own;
+      result.own[j] += own;
+    }
+    return result;
+  }
+
+  // Its lower half, for the free vertices.
   Eigen::SparseMatrix<double> hessian(Edge_graph& graph) const
   {
     graph.set_edges(t_);
-    std::vector<double> coupling(t_.number_of_edges());
-    Vertex_vector diagonal(t_.number_of_vertices(), 0.);
-    for(Index e = 0; e < t_.number_of_edges(); ++e)
-    {
-      const Index i = graph.ends[e].first, j = graph.ends[e].second;
-      const double x = scale_[i] * x_[e] * scale_[j], cosine_square = 1 + x * x; // 1 - tanh^2 = 1 / cosh^2
-      coupling[e] = 2 * weight_[e] / cosine_square;
-      const double own = 2 * weight_[e] * (x / cosine_square * x);
-      diagonal[i] += own;
-      diagonal[j] += own;
-    }
-    return assemble_lower(graph, coupling, diagonal);
+    const Coupled_vertices whole = hessian();
+    return assemble_lower(graph, whole.coupling, whole.own);
   }
 
   // Flips what is not Delaunay at the factors s of a wider type, beyond the errors of the lengths. Returns whether there was anything to flip.
@@ -149,6 +167,9 @@ private:
   bool flip_here()
   {
     const int most_rounds = 100; // each flips to the end, as far as rounding lets it see
+    const std::size_t before = changes_;
+    if(has_flipped_ && std::all_of(scale_.begin(), scale_.end(), [](double s) { return s > 1e-100 && s < 1e100; }))
+      flip(scale_, all_edges(t_)); // as there will be more: angles that nobody asks for are not found
     bool is_finite = find_angles();
     for(int round = 0; is_finite && round < most_rounds; ++round)
     {
@@ -157,6 +178,7 @@ private:
         break;
       is_finite = find_angles();
     }
+    has_flipped_ = changes_ != before;
     return is_finite;
   }
 
@@ -181,6 +203,7 @@ private:
     flipper_->flip_to_delaunay(s, std::move(candidates), Flip_rule::PTOLEMY, [&](Index e) { flips_.push_back(e); });
     for(std::size_t n = before; n < flips_.size(); ++n)
     {
+      ++changes_;
       x_[flips_[n]] = static_cast<double>(t_.length(flips_[n]));
       is_worn_ = is_worn_ || flipper_->length_error(flips_[n]) > 1e-13;
     }
@@ -195,6 +218,7 @@ private:
     for(Index e = 0; e < t_.number_of_edges(); ++e)
       x_[e] = static_cast<double>(t_.length(e));
     flips_.clear();
+    ++changes_;
     is_worn_ = false;
   }
 
@@ -250,6 +274,8 @@ private:
   std::unique_ptr<Delaunay_flipper<NT> > flipper_;
   std::vector<double> x_, scale_, angle_sum_, weight_, sensitivity_;
   std::vector<Index> broken_, without_circle_, flips_;
+  std::size_t changes_ = 0;
+  bool has_flipped_ = false; // in the last evaluation
   bool is_worn_ = false; // some length is known less well than to rounding
 };
 

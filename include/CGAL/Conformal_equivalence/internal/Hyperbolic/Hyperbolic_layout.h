@@ -33,6 +33,26 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// By halfedge: e^{i alpha / 2} for the angle alpha of its face at its origin.
+template <typename NT>
+std::vector<Complex_number<typename Hyperbolic_metric<NT>::Wide_number> > half_corners(const Hyperbolic_metric<NT>& metric)
+{
+  using std::sqrt;
+  typedef typename Hyperbolic_metric<NT>::Wide_number Wide;
+  std::vector<Complex_number<Wide> > result(metric.triangulation.number_of_halfedges());
+  for(std::uint32_t f = 0; f < metric.triangulation.number_of_faces(); ++f)
+  {
+    const Hyperbolic_incircle_form<Wide> triangle = scaled_sides(metric.triangulation, metric.scale_factors, f).triangle();
+    for(std::uint32_t k = 0; k < 3; ++k)
+    {
+      const Complex_number<Wide> z{triangle.tangent[(k + 1) % 3], triangle.r};
+      const Wide size = sqrt(square_norm(z));
+      result[3 * f + k] = {z.re / size, z.im / size};
+    }
+  }
+  return result;
+}
+
 template <typename NT>
 class Hyperbolic_layout
 {
@@ -64,18 +84,7 @@ private:
   // The halves of the angles from the first halfedge of a vertex to the others, counterclockwise.
   void find_directions()
   {
-    std::vector<Complex> half_corner(t_.number_of_halfedges()); // e^{i alpha / 2} at the origin of the halfedge
-    for(Index f = 0; f < t_.number_of_faces(); ++f)
-    {
-      using std::sqrt;
-      const Hyperbolic_incircle_form<Wide> triangle = scaled_sides(t_, metric_.scale_factors, f).triangle();
-      for(Index k = 0; k < 3; ++k)
-      {
-        const Complex z{triangle.tangent[(k + 1) % 3], triangle.r};
-        const Wide size = sqrt(square_norm(z));
-        half_corner[3 * f + k] = {z.re / size, z.im / size};
-      }
-    }
+    const std::vector<Complex> half_corner = half_corners(metric_);
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
     {
       Complex turn{Wide(1), Wide(0)};

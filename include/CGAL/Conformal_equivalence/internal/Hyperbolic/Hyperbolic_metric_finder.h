@@ -16,6 +16,7 @@
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_energy.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_linear_solver.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/tell_flips.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
@@ -87,8 +88,12 @@ public:
   // `t` with Euclidean lengths
   Hyperbolic_metric_finder(Intrinsic_triangulation<NT> t, const Conformal_conditions<NT>& conditions, const Solver_options& options,
                            std::unique_ptr<Factorization> factorization)
-    : given_(std::move(t)), conditions_(conditions), options_(options), factorization_(std::move(factorization))
+    : given_(std::move(t)), conditions_(conditions), options_(options), linear_(std::move(factorization), metric_.statistics),
+      graph_(linear_.graph())
   {}
+
+  Hyperbolic_metric_finder(const Hyperbolic_metric_finder&) = delete; // parts refer to one another
+  Hyperbolic_metric_finder& operator=(const Hyperbolic_metric_finder&) = delete;
 
   Metric find()
   {
@@ -123,9 +128,7 @@ private:
     for(Index e = 0; e < given_.number_of_edges(); ++e)
       metric_.triangulation.set_length(e, NT(metric_.triangulation.length(e) / 2));
     energy_ = std::make_unique<Hyperbolic_energy<NT> >(metric_.triangulation);
-    metric_.status = minimize();
-    if(metric_.status == Status::OK)
-      metric_.status = refine();
+    metric_.status = minimize_and_refine();
     tell();
   }
 
@@ -177,6 +180,7 @@ private:
   double evaluate(const Vertex_vector& u, Vertex_vector& r)
   {
     ++metric_.statistics.number_of_evaluations;
+    is_moved_ = true;
     const bool is_finite = energy_->evaluate(u);
     r = energy_->angle_sums();
     for(Index v = 0; v < r.size(); ++v)
@@ -195,75 +199,73 @@ private:
     return 4 * std::numeric_limits<double>::epsilon() * largest;
   }
 
-  // Where there is nearly no area the Hessian is nearly that of a flat metric, singular up to rounding: then its diagonal gets a little more.
-  bool factorize()
+  // d = H^-1 r on the free vertices, with the Hessian where the energy was last evaluated.
+  bool solve(const Vertex_vector& r, double tolerance, Vertex_vector& d)
   {
-    const Eigen::SparseMatrix<double> hessian = energy_->hessian(graph_);
-    if(energy_->flips().size() != flips_of_pattern_)
-      factorization_->forget_pattern();
-    flips_of_pattern_ = energy_->flips().size();
-    for(const double more : {0., 1e-13, 1e-11, 1e-9})
+    if(is_moved_)
     {
-      ++metric_.statistics.number_of_factorizations;
-      if(factorization_->factor(with_larger_diagonal(hessian, more)))
-        return true;
+      hessian_ = energy_->hessian();
+      linear_.set_matrix(metric_.triangulation, energy_->number_of_changes(), hessian_);
+      is_moved_ = false;
     }
-    return false;
+    return linear_.solve(r, tolerance, d);
   }
 
-  // The diagonal times 1 + `more`, of the lower half of a matrix.
-  static Eigen::SparseMatrix<double> with_larger_diagonal(Eigen::SparseMatrix<double> lower, double more)
+  // How accurately the next step is solved for, as in the plane: not to spoil quadratic convergence.
+  double forcing_term(double tolerance) const
   {
-    for(int c = 0; more > 0 && c < lower.outerSize(); ++c)
-      lower.valuePtr()[lower.outerIndexPtr()[c]] *= 1 + more;
-    return lower;
+    const std::vector<double>& history = metric_.statistics.residuals;
+    const double size = history.back();
+    const double gain = history.size() < 2 ? 1 : size / history[history.size() - 2];
+    return (std::min)(1e-2, (std::max)(0.1 * gain * gain, 0.1 * tolerance / size));
   }
 
-  // d = H^-1 r on the free vertices, with the matrix last factorized.
-  bool solve(const Vertex_vector& r, Vertex_vector& d)
+  // Half of the digits are enough where the last steps follow, each of which doubles their number, too. Where these come to nothing, all that
+  // `double` has.
+  Status minimize_and_refine()
   {
-    std::vector<double> x(graph_.number_of_free);
-    for(Index v = 0; v < r.size(); ++v)
-      if(graph_.is_free(v))
-        x[graph_.free_index[v]] = r[v];
-    if(!x.empty() && !factorization_->solve(x))
-      return false;
-    d.assign(r.size(), 0.);
-    for(Index v = 0; v < r.size(); ++v)
-      if(graph_.is_free(v))
-        d[v] = x[graph_.free_index[v]];
-    return true;
+    const double near_enough = 1e-7;
+    Status result = Status::ITERATIONS_EXHAUSTED;
+    for(const double tolerance : {(std::max)(options_.gradient_tolerance, near_enough), options_.gradient_tolerance})
+    {
+      result = minimize(tolerance);
+      if(result != Status::OK)
+        return result;
+      result = refine();
+      if(result != Status::ITERATIONS_EXHAUSTED)
+        return result;
+    }
+    return result;
   }
 
-  Status minimize()
+  Status minimize(double tolerance)
   {
     Vertex_vector r, d;
     double size = evaluate(u_, r);
-    for(std::size_t iteration = 0; ; ++iteration)
+    for(; ; ++metric_.statistics.number_of_iterations)
     {
-      record(iteration, size);
+      record(size);
       if(!std::isfinite(size))
         return Status::ITERATIONS_EXHAUSTED;
       metric_.statistics.residual_floor = rounding_floor();
-      if(size <= (std::max)(options_.gradient_tolerance, metric_.statistics.residual_floor))
-        return factorize() ? Status::OK : Status::SINGULAR_PROBLEM;
+      if(size <= (std::max)(tolerance, metric_.statistics.residual_floor))
+        return Status::OK;
       if(!options_.visitor.go_further())
         return Status::STOPPED_BY_VISITOR;
-      if(iteration == options_.number_of_iterations)
+      if(metric_.statistics.number_of_iterations == options_.number_of_iterations)
         return Status::ITERATIONS_EXHAUSTED;
-      if(!factorize() || !solve(r, d))
+      if(!solve(r, forcing_term(tolerance), d))
         return Status::SINGULAR_PROBLEM;
       if(!step(d, r, size))
         return size <= 10 * metric_.statistics.residual_floor ? Status::OK : Status::ITERATIONS_EXHAUSTED;
-      ++metric_.statistics.number_of_iterations;
     }
   }
 
-  void record(std::size_t iteration, double size)
+  void record(double size)
   {
     metric_.statistics.residuals.push_back(size);
     metric_.statistics.residual = size;
-    options_.visitor.on_iteration(iteration, size);
+    options_.visitor.on_iteration(metric_.statistics.number_of_iterations, size);
   }
 
   // Goes along d, from u, as far as E does not rise at the end more than half as steeply as it falls at the beginning. The slope of 2 E along d is
@@ -294,32 +296,35 @@ private:
     return false;
   }
 
-  // The last steps, with the residual in the wide type and the factor in `double`: each gains as many digits as the factor has. They go on until
-  // there is nothing to gain, as what is laid out adds up all residuals. A step with an error e^3 in s is as good as any.
+  // The last steps, with the residual in the wide type and the linear systems in `double`: each gains as many digits as these have. They go on
+  // until there is nothing to gain, as what is laid out adds up all residuals. A step with an error e^3 in s is as good as any.
   Status refine()
   {
     using std::exp;
-    using std::ldexp;
+    metric_.amount = 0;
     std::vector<Wide>& s = metric_.scale_factors;
     s.resize(u_.size());
     for(Index v = 0; v < u_.size(); ++v)
       s[v] = graph_.is_free(v) || given_.is_isolated_vertex(v) ? Wide(std::exp(u_[v] / 2))
                                                                : Wide(exp(Wide(Wide(conditions_.log_scale_factor(v)) / 2)));
-    const int most_rounds = 10; // of flips that rounding in `double` had hidden
+    const int most_rounds = 10;  // of flips that rounding in `double` had hidden
+    const int most_steps = 1000; // of a dozen digits each
+    const Wide goal = (std::min)(Wide(options_.gradient_tolerance / 1e4), Wide(std::numeric_limits<Wide>::epsilon() * 1e4));
     Wide size(0);
     for(int round = 0; round < most_rounds; ++round)
     {
       Scaled_vector residual = hyperbolic_residual(metric_.triangulation, s, conditions_);
       size = residual.template largest<Wide>();
-      const Wide goal = (std::min)(Wide(options_.gradient_tolerance / 1e4), Wide(std::numeric_limits<Wide>::epsilon() * 1e4));
-      while(size > goal && add_step(residual, size, s)) {}
+      double longest = 0; // of all entries of the last step
+      for(int step = 0; step < most_steps && size > goal && add_step(residual, size, s, longest); ++step)
+        if(longest > 1e-12 && move_energy_to(s)) // that far the Hessian is another one
+        {
+          residual = hyperbolic_residual(metric_.triangulation, s, conditions_);
+          size = residual.template largest<Wide>();
+        }
       if(!energy_->make_delaunay(s))
         break;
-      for(Index v = 0; v < u_.size(); ++v)
-        u_[v] = 2 * std::log(static_cast<double>(s[v]));
-      energy_->evaluate(u_);
-      if(!factorize())
-        return Status::SINGULAR_PROBLEM;
+      move_energy_to(s);
     }
     metric_.statistics.residual = static_cast<double>(size);
     metric_.statistics.residuals.push_back(metric_.statistics.residual);
@@ -331,14 +336,28 @@ private:
     return metric_.amount <= 8 * floor ? Status::CONVERGED_TO_ROUNDING : Status::ITERATIONS_EXHAUSTED;
   }
 
-  // One step, if it makes the residual less than half of what it is.
-  bool add_step(Scaled_vector& residual, Wide& size, std::vector<Wide>& s)
+  // Evaluates the energy at s, rounded. Returns whether edges were flipped.
+  bool move_energy_to(const std::vector<Wide>& s)
+  {
+    for(Index v = 0; v < u_.size(); ++v)
+      u_[v] = 2 * std::log(static_cast<double>(s[v]));
+    const std::size_t changes = energy_->number_of_changes();
+    energy_->evaluate(u_);
+    is_moved_ = true;
+    return energy_->number_of_changes() != changes;
+  }
+
+  // One step, if it makes the residual smaller. Returns whether that is less than half of what it was.
+  bool add_step(Scaled_vector& residual, Wide& size, std::vector<Wide>& s, double& longest)
   {
     using std::ldexp;
     Vertex_vector right = residual.entries, d;
     graph_.clear_fixed(right);
-    if(!solve(right, d))
+    // no more digits than quadratic convergence has
+    const double tolerance = (std::min)(1e-3, (std::max)(1e-13, 1e-2 * static_cast<double>(size)));
+    if(!solve(right, tolerance, d))
       return false;
+    longest = std::ldexp(largest_entry(d), residual.exponent);
     std::vector<Wide> moved = s;
     for(Index v = 0; v < d.size(); ++v)
       if(d[v] != 0)
@@ -402,12 +421,13 @@ private:
   const Intrinsic_triangulation<NT> given_;
   const Conformal_conditions<NT>& conditions_;
   const Solver_options& options_;
-  std::unique_ptr<Factorization> factorization_;
-  std::unique_ptr<Hyperbolic_energy<NT> > energy_;
-  Edge_graph graph_;
-  Vertex_vector u_, target_;
-  std::size_t flips_of_pattern_ = 0;
   Metric metric_;
+  Hyperbolic_linear_solver linear_;
+  Edge_graph& graph_; // that of the linear systems
+  std::unique_ptr<Hyperbolic_energy<NT> > energy_;
+  Coupled_vertices hessian_;
+  bool is_moved_ = true; // since `hessian_` was found
+  Vertex_vector u_, target_;
 };
 
 } // namespace internal

@@ -1,7 +1,8 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The engine of `uniformize_hyperbolic()`: the metric, of the surface or its double, loops, layout, canonical generators, one after the other.
+// The engine of `uniformize_hyperbolic()`: the metric, of the surface or its double, loops, layout, canonical generators, one after the other; with
+// cones, a layout alone.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_UNIFORMIZATION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_UNIFORMIZATION_H
@@ -13,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_development.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_metric_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Isometry.h>
@@ -90,21 +92,25 @@ private:
     const Surface_components pieces = connected_components(t);
     for(const Surface_components::Component& c : pieces.components)
       result_.genus += c.genus();
-    const bool is_closed = pieces.components.size() == 1 && pieces.components.front().number_of_borders == 0;
-    if(!is_closed || pieces.number_of_isolated_vertices > 0 || has_cones(conditions))
+    if(pieces.components.size() != 1 || pieces.number_of_isolated_vertices > 0)
       return;
     const Stopwatch stopwatch;
     options.visitor.on_stage(Stage::LAYOUT);
-    lay_out();
+    const std::vector<char> is_cone = cones(conditions);
+    if(pieces.components.front().number_of_borders == 0 && std::count(is_cone.begin(), is_cone.end(), 1) == 0)
+      lay_out();
+    else
+      develop(is_cone, conditions);
     result_.metric.statistics.seconds.layout = stopwatch.seconds();
   }
 
-  bool has_cones(const Conformal_conditions<double>& conditions) const
+  // By vertex.
+  std::vector<char> cones(const Conformal_conditions<double>& conditions) const
   {
+    std::vector<char> result(given_.number_of_vertices(), 0);
     for(Index v = 0; v < given_.number_of_vertices(); ++v)
-      if(conditions.is_cone(v))
-        return true;
-    return false;
+      result[v] = !given_.is_border_vertex(v) && conditions.is_cone(v);
+    return result;
   }
 
   static std::array<double, 2> rounded(const Complex_number<Wide>& z)
@@ -138,6 +144,26 @@ private:
     find_corners(original, layout.frame, deck, loops.tree.empty() ? 0 : t.origin(loops.tree.front()));
     result_.wide_generators = std::move(layout.generator);
     result_.wide_frames = std::move(layout.frame);
+  }
+
+  // With cones or borders: no group, but a disk.
+  void develop(const std::vector<char>& is_cone, const Conformal_conditions<double>& conditions)
+  {
+    std::vector<Wide> half_angle_cosine(given_.number_of_vertices(), Wide(-1));
+    for(Index v = 0; v < given_.number_of_vertices(); ++v)
+      if(is_cone[v])
+        half_angle_cosine[v] = conditions.is_fixed(v) ? Wide(2) : unit_complex(Wide(conditions.angle_sum(v).template radians<Wide>() / 2)).re;
+    const Hyperbolic_development<double> disk(result_.metric, is_cone, half_angle_cosine);
+    const Triangulation& t = disk.triangulation();
+    result_.vertex_points.resize(t.number_of_vertices());
+    for(Index h = t.number_of_halfedges(); h > 0; --h)
+      result_.vertex_points[t.origin(h - 1)] = rounded(disk.corner[h - 1]);
+    for(Index h = 0; h < t.number_of_halfedges(); ++h)
+      result_.corner_points.push_back(rounded(disk.corner[t.next(h)]));
+    result_.is_seam = disk.is_seam;
+    for(const Motion& m : disk.side_pairings)
+      result_.generators.push_back(rounded(m));
+    result_.relation_error = disk.closing_error;
   }
 
   void find_canonical_generators(const Word& relation, Word_values<Motion>& deck)

@@ -13,7 +13,7 @@
 // For a triangle much smaller than 1 the s - a are differences of lengths. They are not found from rounded lengths, but from x:
 // with p = sinh((b + c) / 2) = x_b y_c + y_b x_c and y = cosh(l/2) = sqrt(1 + x^2),
 //
-//   sinh(s - a) = (p - x_a) (p + x_a) / (p y_a + x_a cosh((b + c) / 2)),
+//   sinh(s - a) = (p - x_a) (p + x_a) / sinh(s),
 //   p - x_a = (x_b + x_c - x_a) + x_b (y_c - 1) + x_c (y_b - 1),   y - 1 = x^2 / (1 + y),
 //
 // where nothing but the first bracket is a difference, and that one is as exact as for Euclidean triangles.
@@ -40,6 +40,13 @@ NT hyperbolic_cosine(const NT& x)
   return sqrt(NT(1 + x * x));
 }
 
+// cosh(l/2) - 1 to all digits, given cosh(l/2), too.
+template <typename NT>
+NT hyperbolic_cosine_minus_one(const NT& x, const NT& y)
+{
+  return x * x / (1 + y);
+}
+
 // As `Incircle_form`, with hyperbolic sines in the place of lengths: of a side that is seen under the angle alpha from the opposite corner
 // `(tangent, r)` is a multiple of (cos alpha/2, sin alpha/2).
 template <typename NT>
@@ -49,11 +56,14 @@ struct Hyperbolic_incircle_form
   std::array<NT, 3> tangent; // sinh of s - a, s - b, s - c
   bool is_triangle;          // the strict triangle inequalities hold
 
-  // x, y = cosh(l/2) of the three sides
-  Hyperbolic_incircle_form(const std::array<NT, 3>& x, const std::array<NT, 3>& y)
-    : s(x[0] * y[1] * y[2] + x[1] * y[2] * y[0] + x[2] * y[0] * y[1] + x[0] * x[1] * x[2]), r(0),
-      tangent{{sine(x, y, 0), sine(x, y, 1), sine(x, y, 2)}}
+  // x, y = cosh(l/2), and m = y - 1 of the three sides
+  Hyperbolic_incircle_form(const std::array<NT, 3>& x, const std::array<NT, 3>& y, const std::array<NT, 3>& m) : r(0)
   {
+    const NT p = sine_of_sum(x, y, 0);
+    s = p * y[0] + x[0] * (y[1] * y[2] + x[1] * x[2]);
+    const NT unit = 1 / s;
+    tangent = {{difference(x, m, 0) * ((p + x[0]) * unit), difference(x, m, 1) * ((sine_of_sum(x, y, 1) + x[1]) * unit),
+                difference(x, m, 2) * ((sine_of_sum(x, y, 2) + x[2]) * unit)}};
     is_triangle = tangent[0] > 0 && tangent[1] > 0 && tangent[2] > 0;
     if(is_triangle)
       r = incircle_radius(tangent, s);
@@ -63,12 +73,18 @@ struct Hyperbolic_incircle_form
   bool is_broken() const { return !is_triangle || !(r > 0); }
 
 private:
-  static NT sine(const std::array<NT, 3>& x, const std::array<NT, 3>& y, int k)
+  // p = sinh((b + c) / 2)
+  static NT sine_of_sum(const std::array<NT, 3>& x, const std::array<NT, 3>& y, int k)
   {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const NT p = x[i] * y[j] + y[i] * x[j], cosine = y[i] * y[j] + x[i] * x[j];
-    const NT difference = excess(x[k], x[i], x[j]) + x[i] * (x[j] * x[j] / (1 + y[j])) + x[j] * (x[i] * x[i] / (1 + y[i]));
-    return difference * ((p + x[k]) / (p * y[k] + x[k] * cosine));
+    return x[i] * y[j] + y[i] * x[j];
+  }
+
+  // p - x_a
+  static NT difference(const std::array<NT, 3>& x, const std::array<NT, 3>& m, int k)
+  {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    return excess(x[k], x[i], x[j]) + x[i] * m[j] + x[j] * m[i];
   }
 };
 
