@@ -35,9 +35,10 @@ function start()
   listen_to_keys(instrument, panel);
   element("canvas").addEventListener("webglcontextlost", () => { note.textContent = "The graphics card was lost. Please load the page again."; });
   new ResizeObserver(() => instrument.histogram.draw()).observe(element("histogram"));
+  instrument.resize(); // draws
   note.textContent = "";
   globalThis.flatten_mesh_page = instrument; // for tests, and for the curious
 }
 
-// The note is painted first.
-requestAnimationFrame(() => setTimeout(start));
+// At once: frames and timers may never come where nobody looks, as in a window in the background, or in a browser that makes a picture of the page.
+start();
