@@ -10,7 +10,7 @@ import { Picker } from "./picking.js";
 
 export const modes = ["pattern", "u", "area", "quasi-conformal"];
 
-const many_faces = 300000; // where one search more per frame would be felt
+const many_faces = 300000; // where one search more per frame would be felt, and triangles are as small as pixels, so that smooth edges show nothing
 
 // The smallest and the largest squares on the surface, and those at first, where the surface is 2 long.
 const square_sizes = { least: .004, most: 1, first: .09 };
@@ -25,7 +25,7 @@ export class Instrument
     this.reading = reading;
     this.quantities = make_quantities(data);
     THREE.ColorManagement.enabled = false; // colours are written as they are given
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: data.number_of_faces < many_faces, preserveDrawingBuffer: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setScissorTest(true);
     this.uniforms = make_uniforms(data, make_textures(data), this.quantities.log_ratio);
@@ -60,7 +60,10 @@ export class Instrument
 
   resize()
   {
-    const canvas = this.renderer.domElement, ratio = Math.min(devicePixelRatio || 1, 3);
+    const canvas = this.renderer.domElement, ratio = Math.min(devicePixelRatio || 1, 3), size = [canvas.clientWidth, canvas.clientHeight, ratio].join();
+    if(size === this.size) // an observer tells it at first, too
+      return;
+    this.size = size;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
     this.cone_uniforms.size.value = 11 * ratio;

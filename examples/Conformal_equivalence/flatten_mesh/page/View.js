@@ -127,8 +127,8 @@ export class View
     const c = this.camera;
     this.controls.target.set(0, 0, 0);
     c.zoom = 1;
+    this.fit(); // the distance depends on the shape
     c.position.set(x, y, z).setLength(this.is_plane ? 2 : this.distance());
-    this.fit();
     this.controls.update();
     this.changed();
   }
@@ -136,7 +136,7 @@ export class View
   distance()
   {
     const aspect = this.camera.aspect || 1, half = angle_of_view / 360 * Math.PI;
-    return 1.04 * this.extent[0] / Math.sin(Math.min(half, Math.atan(Math.tan(half) * aspect)));
+    return 1.07 * this.extent[0] / Math.sin(Math.min(half, Math.atan(Math.tan(half) * aspect)));
   }
 
   // Gives the camera the shape of the element.
@@ -145,7 +145,8 @@ export class View
     const w = this.element.clientWidth || 1, h = this.element.clientHeight || 1, c = this.camera;
     if(this.is_plane)
     {
-      const unit = 1.12 * Math.max(this.extent[0] / w, this.extent[1] / h);
+      const heading = h > 200 ? 30 : 0; // pixels, above what is seen at first; and below, as the origin is in the middle
+      const unit = Math.max(1.12 * this.extent[0] / w, 1.06 * this.extent[1] / (h - 2 * heading));
       c.left = -unit * w;
       c.right = unit * w;
       c.top = unit * h;

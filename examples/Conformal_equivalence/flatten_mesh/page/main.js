@@ -26,6 +26,12 @@ function start()
     return refuse(`${data.number_of_faces} triangles are more than this graphics card takes.`);
   trial.getExtension("WEBGL_lose_context")?.loseContext();
 
+  if(data.is_sphere)
+  {
+    const pane = element("layout");
+    pane.querySelector("h2").textContent = "Sphere";
+    pane.setAttribute("aria-label", pane.getAttribute("aria-label").replace("Layout. Arrows move it", "Sphere. Arrows turn it"));
+  }
   const reading = make_reading(element("reading"));
   reading.show(null);
   const instrument = new Instrument(data, element("canvas"), element("surface"), element("layout"), reading);
