@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "../include/flatten_mesh/Progress.h"
+#include "../include/flatten_mesh/figures.h"
 #include "../include/flatten_mesh/messages.h"
 
 #include <algorithm>
@@ -120,7 +121,7 @@ void Progress_visitor::on_progress(CGAL::Conformal_equivalence::Stage next, std:
 {
   using CGAL::Conformal_equivalence::Stage;
   if(next == Stage::FLIP)
-    return progress->show(text(": ", CGAL::Conformal_equivalence::stage_name(next), ", ", count(number, "flip", "flips"), ", ", measure, " to look at"), -1);
+    return progress->show(text(": flipping edges, ", count(number, "flip", "flips"), ", ", measure, " edges to look at"), -1);
   stage = next;
   progress->begin(CGAL::Conformal_equivalence::stage_name(stage));
   progress->show(text(": ", next == Stage::CORNERS ? count(number, "metric", "metrics") : count(number, "cone", "cones"), ", ", measure), -1);

@@ -45,8 +45,8 @@ struct HTML_options
   std::vector<bool> hidden_edges;
   // Circles that are drawn in the layout, each by its centre and its radius.
   std::vector<std::array<double, 3> > circles;
-  // Instead of a layout, by position in vertices(tm): points of unit spheres, whose centres are (i d, j d, 0) with whole numbers i, j. The layout given
-  // then has the triangles between the points, each laid out by itself. Empty: there is a layout.
+  // Instead of a layout, by position in vertices(tm): points of unit spheres, whose centres are (i d, j d, 0) with whole numbers i, j. The layout
+  // given then has the triangles between the points, each laid out by itself. Empty: there is a layout.
   std::vector<std::array<double, 3> > points_of_spheres;
   double distance_of_spheres = 0; // d
   // By position in faces(tm) and vertices(tm): the numbers that they are called by. Empty: their positions.
