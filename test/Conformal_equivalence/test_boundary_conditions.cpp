@@ -408,6 +408,52 @@ BOOST_AUTO_TEST_CASE(no_exchange_of_a_corner_is_better)
   }
 }
 
+// Solves for metrics are a part of the search, and none of the visitor's business; but they stop when it says so.
+BOOST_AUTO_TEST_CASE(a_visitor_is_told_of_the_search_for_corners_and_may_stop_it)
+{
+  struct Listener : public CE::Default_visitor
+  {
+    int left;
+    std::vector<CE::Stage> stages;
+    std::vector<std::size_t> numbers;
+
+    explicit Listener(int left) : left(left) {}
+    void on_stage(CE::Stage stage) { stages.push_back(stage); }
+    void on_progress(CE::Stage stage, std::size_t number, double)
+    {
+      if(stage == CE::Stage::CORNERS)
+        numbers.push_back(number);
+    }
+    bool go_further() { return left-- > 0; }
+  };
+  const Maps m(hill(4, .5));
+  Report report;
+  const Corners corners = select_corners(m.sm, report);
+  BOOST_TEST_REQUIRE(bool(report));
+  const auto select = [&](Listener& listener)
+  {
+    return CE::select_rectangle_corners(m.sm, border_halfedge(m.sm), params::flattening_report(std::ref(report)).visitor(std::ref(listener)));
+  };
+  Listener patient(1000000);
+  BOOST_TEST((select(patient) == corners));
+  BOOST_TEST((patient.stages == std::vector<CE::Stage>{ CE::Stage::CORNERS }));
+  BOOST_TEST_REQUIRE(!patient.numbers.empty());
+  for(std::size_t i = 0; i < patient.numbers.size(); ++i)
+    BOOST_TEST(patient.numbers[i] == i + 1);
+  const int asked = 1000000 - patient.left;
+  BOOST_TEST(asked > 1);
+  for(const int n : { 0, 1, asked / 2, asked - 1 })
+  {
+    Listener impatient(n);
+    const Corners none = select(impatient);
+    BOOST_TEST((report.status == Status::STOPPED_BY_VISITOR));
+    BOOST_TEST((none[0] == Mesh::null_vertex()));
+    BOOST_TEST(impatient.left >= -3); // it is hardly asked again
+  }
+  Listener just_patient_enough(asked);
+  BOOST_TEST((select(just_patient_enough) == corners));
+}
+
 // --- what is prescribed, and what is refused ----------------------------------------------------
 
 // On one border only, and nowhere else.

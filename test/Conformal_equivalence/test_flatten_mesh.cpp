@@ -72,8 +72,8 @@ BOOST_AUTO_TEST_CASE(natural_border_and_all_outputs)
   BOOST_TEST(report["components"] == 1);
   BOOST_TEST(report["retriangulation"]["mode"] == "when-needed");
   BOOST_TEST(report["refinement"].is_null());
-  BOOST_TEST(report["residual"].get<double>() <= 1e-12);
-  BOOST_TEST(report["tolerance"].get<double>() == 1e-12);
+  BOOST_TEST(report["residual"].get<double>() <= testing::solver_tolerance);
+  BOOST_TEST(report["tolerance"].get<double>() == testing::solver_tolerance);
   BOOST_TEST(report["flipped_triangles"] == 0);
   BOOST_TEST(report["injective"] == "yes");
   BOOST_TEST(report["quasi_conformal"]["mean"].get<double>() >= 1);
@@ -163,8 +163,8 @@ BOOST_AUTO_TEST_CASE(prescribed_scale_and_angles)
   BOOST_TEST(! judge(input, folder / "u.obj", true).is_good());
   const checking::Surface with_u = checking::read_surface(folder / "u.obj");
   const auto weight = [&](std::size_t v) { return with_u.texture[v][2]; }; // one texture vertex for each vertex
-  BOOST_TEST(std::log(weight(1) / weight(0)) == 0.3, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(std::log(weight(1) / weight(5)) == -0.2, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(std::log(weight(1) / weight(0)) == 0.3, boost::test_tools::tolerance(testing::few_residuals));
+  BOOST_TEST(std::log(weight(1) / weight(5)) == -0.2, boost::test_tools::tolerance(testing::few_residuals));
   BOOST_TEST(weight(1) == weight(n));
 
   // the angle sum at the middle of the lower side
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(prescribed_scale_and_angles)
   const checking::Surface with_angle = checking::read_surface(folder / "a.obj");
   const auto& p = with_angle.texture;
   const double turn = std::atan2(p[4][1] - p[5][1], p[4][0] - p[5][0]) - std::atan2(p[6][1] - p[5][1], p[6][0] - p[5][0]);
-  BOOST_TEST(std::remainder(turn - 150 * CGAL_PI / 180, 2 * CGAL_PI) == 0, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(std::remainder(turn - 150 * CGAL_PI / 180, 2 * CGAL_PI) == 0, boost::test_tools::tolerance(testing::summed_residuals));
 }
 
 namespace {
@@ -193,7 +193,7 @@ void check_rectangle(const checking::Surface& s, const std::vector<std::size_t>&
                                    (q[0] - p[0]) * (r[0] - q[0]) + (q[1] - p[1]) * (r[1] - q[1]));
     const bool is_corner = turn > 0.7;
     corners += is_corner;
-    BOOST_TEST(std::abs(turn - (is_corner ? CGAL_PI / 2 : 0)) < 1e-10);
+    BOOST_TEST(std::abs(turn - (is_corner ? CGAL_PI / 2 : 0)) < testing::summed_residuals);
   }
   BOOST_TEST(corners == 4u);
 }
@@ -291,7 +291,7 @@ BOOST_AUTO_TEST_CASE(retriangulation)
     BOOST_TEST(report["retriangulation"]["mode"] == mode);
     BOOST_TEST(report["retriangulation"]["class"] != "fixed triangulation");
     BOOST_TEST(report["retriangulation"]["flips"].get<int>() > 0);
-    BOOST_TEST(report["residual"].get<double>() <= 1e-12);
+    BOOST_TEST(report["residual"].get<double>() <= testing::solver_tolerance);
     BOOST_TEST(report["flipped_triangles"] == 0);
     BOOST_TEST(report["refinement"].is_null()); // straight triangles will do
 #endif
@@ -341,7 +341,7 @@ BOOST_AUTO_TEST_CASE(many_digits)
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
     const nlohmann::json report = json(report_file);
     BOOST_TEST(report["precision_bits"] == bits);
-    BOOST_TEST(report["residual"].get<double>() <= (bits == 53 ? 1e-12 : 1e-57));
+    BOOST_TEST(report["residual"].get<double>() <= (bits == 53 ? testing::solver_tolerance : testing::rounding_of_200_bits));
     BOOST_TEST(report["residual"].get<double>() > 0);
     BOOST_TEST(report["triangles_lost_in_double"] == 0);
 #endif
@@ -389,7 +389,7 @@ BOOST_AUTO_TEST_CASE(many_digits)
       worst = (std::max)(worst, Real(abs(Real(in_plane / in_space - 1))));
     }
     BOOST_TEST(number_of_sides == 24u);
-    BOOST_TEST(worst <= (bits == 53 ? 1e-14 : 1e-57));
+    BOOST_TEST(worst <= (bits == 53 ? 100 * testing::unit_roundoff : testing::rounding_of_200_bits));
     BOOST_TEST(worst > (bits == 53 ? 1e-18 : 1e-75)); // of what rounding leaves
   }
 
@@ -424,7 +424,7 @@ BOOST_AUTO_TEST_CASE(faces_of_no_area)
   BOOST_TEST(report["retriangulation"]["flips"] == number);
   BOOST_TEST(contains(r.out, "to resolve faces of no area"));
   for(const char* u : {"u_min", "u_max"}) // right up to the rounding of the lengths
-    BOOST_TEST(std::abs(report[u].get<double>()) <= 1e-15);
+    BOOST_TEST(std::abs(report[u].get<double>()) <= testing::few_roundings);
 #else
   BOOST_TEST(r.status == 2);
   BOOST_TEST(number > 0u);
@@ -604,7 +604,7 @@ BOOST_AUTO_TEST_CASE(what_flips_cost)
     largest = (std::max)(largest, std::abs(std::hypot(p[0] - q[0], p[1] - q[1])
       / (std::exp((u[t[1]] + u[t[2]]) / 2) * length(given.points[t[1]], given.points[t[2]])) - 1));
   }
-  BOOST_TEST(report["retriangulation"]["lost_border_length_error"].get<double>() == largest, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(report["retriangulation"]["lost_border_length_error"].get<double>() == largest, boost::test_tools::tolerance(testing::many_residuals));
   BOOST_TEST(report["retriangulation"]["straight_cross_ratio_error"].get<double>() > 0);
 #endif
   // without flips there is nothing to tell

@@ -63,11 +63,11 @@ void check_lattice(const checking::Surface& s, const nlohmann::json& report)
   const auto p = lattice["periods"].get<std::array<std::array<double, 2>, 2> >();
   const auto tau = lattice["tau"].get<std::array<double, 2> >();
   const double det = p[0][0] * p[1][1] - p[0][1] * p[1][0], norm = p[0][0] * p[0][0] + p[0][1] * p[0][1];
-  BOOST_TEST(std::abs(area(s) / det - 1) < 1e-10); // the torus covers the plane once
-  BOOST_TEST(std::abs(tau[0] - (p[0][0] * p[1][0] + p[0][1] * p[1][1]) / norm) < 1e-10);
-  BOOST_TEST(std::abs(tau[1] - det / norm) < 1e-10);
-  BOOST_TEST(std::abs(tau[0]) <= .5 + 1e-10);
-  BOOST_TEST(std::hypot(tau[0], tau[1]) >= 1 - 1e-10);
+  BOOST_TEST(std::abs(area(s) / det - 1) < testing::summed_residuals); // the torus covers the plane once
+  BOOST_TEST(std::abs(tau[0] - (p[0][0] * p[1][0] + p[0][1] * p[1][1]) / norm) < testing::summed_residuals);
+  BOOST_TEST(std::abs(tau[1] - det / norm) < testing::summed_residuals);
+  BOOST_TEST(std::abs(tau[0]) <= .5 + testing::summed_residuals);
+  BOOST_TEST(std::hypot(tau[0], tau[1]) >= 1 - testing::summed_residuals);
 }
 #endif
 
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(sphere_with_eight_cones)
   for(std::size_t v = 0; v < 8; ++v)
   {
     BOOST_TEST(f.report["cones"][v]["vertex"] == v);
-    BOOST_TEST(std::abs(f.report["cones"][v]["angle_degrees"].get<double>() - 270) < 1e-9);
+    BOOST_TEST(std::abs(f.report["cones"][v]["angle_degrees"].get<double>() - 270) < testing::summed_residuals_in_degrees);
     BOOST_TEST(f.report["cones"][v]["prescribed"] == true);
   }
 #endif
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(sphere_with_free_cones)
                     {{0, degrees(200)}, {3, degrees(220)}, {7, free_angle}, {8, free_angle}, {9, free_angle}});
   const std::vector<double> sums = angle_sums(f.layout);
   // 720 degrees of curvature, of which 300 are prescribed; u = 0 at the free cones
-  BOOST_TEST(std::abs((sums[7] + sums[8] + sums[9]) / CGAL_PI * 180 - (3 * 360 - 420)) < 1e-8);
+  BOOST_TEST(std::abs((sums[7] + sums[8] + sums[9]) / CGAL_PI * 180 - (3 * 360 - 420)) < 3 * testing::summed_residuals_in_degrees);
   std::map<std::size_t, double> weight;
   for(std::size_t i = 0; i < f.layout.faces.size(); ++i)
     for(std::size_t k = 0; k < 3; ++k)
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(sphere_with_free_cones)
     const nlohmann::json& cone = f.report["cones"][i];
     BOOST_TEST(cone["vertex"] == expected[i]);
     BOOST_TEST(cone["prescribed"] == (expected[i] < 7));
-    BOOST_TEST(std::abs(cone["angle_degrees"].get<double>() - sums[expected[i]] / CGAL_PI * 180) < 1e-8);
+    BOOST_TEST(std::abs(cone["angle_degrees"].get<double>() - sums[expected[i]] / CGAL_PI * 180) < 2 * testing::summed_residuals_in_degrees);
   }
 #endif
 }
@@ -182,11 +182,11 @@ BOOST_AUTO_TEST_CASE(rectangle_on_one_of_two_borders)
   const Flattened f(folder, input, {"--boundary", "rectangle=240,250,260,270"}, {}, false);
   const std::vector<double> sums = angle_sums(f.layout);
   for(std::size_t i = 0; i < n; ++i)
-    BOOST_TEST(std::abs(sums[m * n + i] - (i % 10 == 0 ? CGAL_PI / 2 : CGAL_PI)) < 1e-10);
+    BOOST_TEST(std::abs(sums[m * n + i] - (i % 10 == 0 ? CGAL_PI / 2 : CGAL_PI)) < testing::summed_residuals);
   for(std::size_t i = 0; i < n; ++i) // the inner border keeps its lengths
   {
     const double scale = (std::max)(scale_of_edge(f.layout, i, (i + 1) % n), scale_of_edge(f.layout, (i + 1) % n, i));
-    BOOST_TEST(std::abs(scale - 1) < 1e-10);
+    BOOST_TEST(std::abs(scale - 1) < testing::summed_residuals);
   }
   check_refused({input, "--boundary", "rectangle=0,10,20,270"}, 1, "vertex 270 is not on the same border as vertex 0");
   check_refused({input, "--boundary", "rectangle=240,3,250,260"}, 1, "vertex 3 is not on the same border as vertex 240");
@@ -211,7 +211,7 @@ BOOST_AUTO_TEST_CASE(several_rectangles)
     run_on_mixture(folder, "alone", all.parts[i], {"--boundary", "rectangle", "--quiet"});
     const std::vector<double> alone = angle_sums(checking::read_surface(folder / "alone.obj"));
     for(std::size_t v = 0; v < alone.size(); ++v)
-      BOOST_TEST(std::abs(sums[all.vertices[i][v]] - alone[v]) < 1e-9);
+      BOOST_TEST(std::abs(sums[all.vertices[i][v]] - alone[v]) < testing::many_residuals);
   }
   // corners that are given make one of them a rectangle
   const auto corners = [&](std::size_t i)
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(several_rectangles)
     return list;
   };
   const Flattened one(folder, input, {"--boundary", corners(1)}, {}, false);
-  BOOST_TEST(std::abs(angle_sums(one.layout)[all.vertices[1][48]] - CGAL_PI / 2) < 1e-9);
+  BOOST_TEST(std::abs(angle_sums(one.layout)[all.vertices[1][48]] - CGAL_PI / 2) < testing::many_residuals);
 
   const auto refused = [&](const testing::Soup& soup, const std::string& reason)
   {
@@ -383,7 +383,7 @@ BOOST_AUTO_TEST_CASE(cones_place_themselves)
   BOOST_TEST(f.report["cones"].size() >= 1u);
   const double area_bound = std::sqrt(area_distortion(plain.layout));
   const Flattened g = with_placed_cones(folder, input, {"--cones", "auto", "--max-area", number(area_bound)});
-  BOOST_TEST(area_distortion(g.layout) <= area_bound * (1 + 1e-9));
+  BOOST_TEST(area_distortion(g.layout) <= area_bound * (1 + testing::many_residuals));
   BOOST_TEST(area_distortion(g.layout) > 1);
   const Flattened h = with_placed_cones(folder, input, {"--cones", "auto", "--max-rms", "0.05", "--cone-measure", "rms"});
   BOOST_TEST(h.report["cones"].size() >= 1u);
@@ -441,7 +441,7 @@ BOOST_AUTO_TEST_CASE(cones_on_several_components)
         BOOST_TEST(std::any_of(f.report["cones"].begin(), f.report["cones"].end(), [&](const nlohmann::json& other)
         {
           return other["vertex"] == all.vertices[i][cone["vertex"].get<std::size_t>()]
-              && std::abs(other["angle_degrees"].get<double>() - cone["angle_degrees"].get<double>()) < 1e-8;
+              && std::abs(other["angle_degrees"].get<double>() - cone["angle_degrees"].get<double>()) < 2 * testing::summed_residuals_in_degrees;
         }));
       if(has_bound)
         BOOST_TEST(largest_u(f.report["component_figures"][i]) <= bound);
@@ -475,13 +475,13 @@ BOOST_AUTO_TEST_CASE(cones_are_rounded)
     {
       const double angle = cone["angle_degrees"].get<double>(), before = cone["angle_before_degrees"].get<double>();
       curvature += 360 - angle;
-      BOOST_TEST(std::abs(angle / step - std::round(angle / step)) < 1e-9);
+      BOOST_TEST(std::abs(angle / step - std::round(angle / step)) < 360 * testing::few_roundings);
       BOOST_TEST(std::abs(angle - before) < 2 * step);
       BOOST_TEST(angle != before);
       BOOST_TEST(angle != 360);
       BOOST_TEST(cone["prescribed"] == true);
     }
-    BOOST_TEST(std::abs(curvature - 720) < 1e-8);
+    BOOST_TEST(std::abs(curvature - 720) < 8 * 360 * testing::few_roundings);
     BOOST_TEST(f.report["cones"].size() + f.report["flattened_cones"].size() == 8u);
   }
 

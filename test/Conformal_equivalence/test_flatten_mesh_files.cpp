@@ -947,7 +947,7 @@ BOOST_AUTO_TEST_CASE(polygons_are_written_as_they_were)
     BOOST_TEST(obj.corners[f].size() == obj.faces[f].size());
     BOOST_TEST(obj.area(f) > 0);
   }
-  BOOST_TEST(largest_difference_of_distances(obj) < 1e-11); // lengths of 5 and residuals of 1e-12
+  BOOST_TEST(largest_difference_of_distances(obj) < testing::few_residuals); // lengths of 5
 
   // the same from other formats
   std::ostringstream ply;
@@ -982,13 +982,13 @@ BOOST_AUTO_TEST_CASE(polygons_are_not_cut)
     const Obj obj = flattened(folder, cube, with({"--cones", cones}, options));
     BOOST_TEST(obj.faces.size() == 6u);
     const double scale = std::sqrt(obj.area(0));
-    BOOST_TEST(largest_difference_of_distances(obj, scale) < 1e-10);
+    BOOST_TEST(largest_difference_of_distances(obj, scale) < testing::summed_residuals);
     BOOST_TEST(number_of_borders(obj) == 14u); // twelve edges are cut but for the five between six squares in one piece
   }
   const Obj sphere = flattened(folder, cube, {"--target", "sphere"});
   BOOST_TEST((sphere.faces == Obj(folder.write("c.obj", "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")).faces));
   for(const auto& p : sphere.points)
-    BOOST_TEST(std::hypot(p[0], p[1], p[2]) == 1, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(std::hypot(p[0], p[1], p[2]) == 1, boost::test_tools::tolerance(100 * testing::unit_roundoff));
 }
 
 // Polygons that have no normal, or cross themselves, are divided, too.
@@ -1034,7 +1034,7 @@ BOOST_AUTO_TEST_CASE(repair_merges_equal_points)
       const auto p = obj.place(f, k), q = whole.place(f, k);
       largest = (std::max)(largest, std::hypot(p[0] - q[0], p[1] - q[1]));
     }
-  BOOST_TEST(largest < 1e-11); // the frame of the layout is canonical, and the diameter about 1
+  BOOST_TEST(largest < testing::few_residuals); // the frame of the layout is canonical, and the diameter about 1
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
   const std::size_t inner_edges = (3 * soup.triangles.size() - 4 * 6) / 2;
   BOOST_TEST((repairs(folder, folder / "apart.off")
@@ -1077,8 +1077,8 @@ BOOST_AUTO_TEST_CASE(repair_of_faces)
   BOOST_TEST((obj.corners[2] == obj.corners[0]));
   BOOST_TEST(obj.corners[3][0] == obj.corners[3][1]);
   for(std::size_t f : {0, 1, 2, 4})
-    BOOST_TEST(obj.area(f) == 1, boost::test_tools::tolerance(1e-11));
-  BOOST_TEST(largest_difference_of_distances(obj) < 1e-11);
+    BOOST_TEST(obj.area(f) == 1, boost::test_tools::tolerance(testing::few_residuals));
+  BOOST_TEST(largest_difference_of_distances(obj) < testing::few_residuals);
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
   BOOST_TEST((repairs(folder, input) == Counts{ {"merged_vertices", 1}, {"degenerate_faces", 2}, {"duplicate_faces", 1}, {"turned_faces", 1} }));
 #endif
@@ -1101,7 +1101,7 @@ BOOST_AUTO_TEST_CASE(repair_of_what_is_no_manifold)
   const Obj pages = flattened(folder, book, {"--repair"});
   BOOST_TEST((pages.faces == std::vector<Obj::Indices>{ {0, 2, 3, 1}, {0, 1, 5, 4}, {0, 1, 7, 6} }));
   BOOST_TEST(pages.places.size() == 12u);
-  BOOST_TEST(largest_difference_of_distances(pages) < 1e-11);
+  BOOST_TEST(largest_difference_of_distances(pages) < testing::few_residuals);
 
   // two triangles at one vertex
   const std::string bow = folder.write("bow.off", off("0 0 0\n1 0 0\n1 1 0\n-1 0 0\n-1 -1 0\n", "3 0 1 2\n3 0 3 4\n"));
@@ -1213,7 +1213,7 @@ void check_ply(const checking::Ply_file& ply, const Obj& obj)
   }
   BOOST_TEST(largest == 1.);
   for(const auto& v : ply.vertices)
-    BOOST_TEST(std::abs(v.at("weight") * std::exp(v.at("log_scale_factor") - least_u) - 1) < 1e-13);
+    BOOST_TEST(std::abs(v.at("weight") * std::exp(v.at("log_scale_factor") - least_u) - 1) < testing::rounded_u);
 }
 
 // The layout as a surface in the plane.
@@ -1302,8 +1302,8 @@ BOOST_AUTO_TEST_CASE(formats_of_other_programs)
       const auto range = std::minmax_element(border.begin(), border.end(), less);
       longest = (std::max)(longest, range.second->first[k] - range.first->first[k]);
     }
-    BOOST_TEST(std::abs(mm_wide / width * 1000 / longest - 1) < 1e-12);
-    BOOST_TEST(std::abs(mm_high / height * 1000 / longest - 1) < 1e-12);
+    BOOST_TEST(std::abs(mm_wide / width * 1000 / longest - 1) < 10 * testing::rounded_layout);
+    BOOST_TEST(std::abs(mm_high / height * 1000 / longest - 1) < 10 * testing::rounded_layout);
   }
 }
 
@@ -1697,7 +1697,7 @@ BOOST_AUTO_TEST_CASE(coded_logarithms)
   const std::vector<std::uint16_t> expected = { 1, 32768, 65534, 0, 65535, 0 };
   BOOST_TEST(coded.codes() == expected, boost::test_tools::per_element());
   BOOST_TEST(coded.range()[0] == 0);
-  BOOST_TEST(std::abs(coded.range()[1] - std::log(4.)) < 1e-15);
+  BOOST_TEST(std::abs(coded.range()[1] - std::log(4.)) < testing::few_roundings);
   BOOST_TEST(flattening::Coded_logarithms().range()[1] == 0);
 }
 

@@ -68,7 +68,7 @@ void check_report_of_seams(const checking::Seam_checker& checker, const checking
     BOOST_TEST(is_there);
   }
   // in coordinates of either lattice a tile has area 1
-  BOOST_TEST(std::abs(seamless["tiles"].get<double>() / area(s) - 1) < 1e-9);
+  BOOST_TEST(std::abs(seamless["tiles"].get<double>() / area(s) - 1) < testing::many_residuals);
   BOOST_TEST(seamless["distortion"]["mean"].get<double>() >= 1);
   BOOST_TEST(seamless["distortion"]["max"].get<double>() >= seamless["distortion"]["mean"].get<double>());
   BOOST_TEST(seamless["quasi_conformal_mean"]["before"].get<double>() >= 1);
@@ -197,7 +197,7 @@ std::size_t check_moves(const Folder& folder, const Mixture& all, const checking
           rounded += difference != 0;
           largest = (std::max)(largest, std::abs(difference));
         }
-    BOOST_TEST(largest < 1e-11);
+    BOOST_TEST(largest < testing::few_residuals);
   }
   return rounded;
 }
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(several_seamless_surfaces)
     tiles += figures["seamless"]["tiles"].get<double>();
     BOOST_TEST(figures["seamless"]["scale"].get<double>() > 0);
   }
-  BOOST_TEST(std::abs(f.report["seamless"]["tiles"].get<double>() - tiles) < 1e-9);
+  BOOST_TEST(std::abs(f.report["seamless"]["tiles"].get<double>() - tiles) < testing::many_residuals);
   BOOST_TEST(f.report["seamless"]["scale"].is_null());
 #endif
 
@@ -305,8 +305,8 @@ BOOST_AUTO_TEST_CASE(coordinates_of_hexagons)
     for(std::size_t k = 0; k < 3; ++k)
     {
       const auto p = corner(lattice.layout, f, k), q = corner(cartesian, f, k);
-      BOOST_TEST(std::abs(p[0] + p[1] / 2 - q[0]) < 1e-13);
-      BOOST_TEST(std::abs(p[1] * std::sqrt(.75) - q[1]) < 1e-13);
+      BOOST_TEST(std::abs(p[0] + p[1] / 2 - q[0]) < testing::rounded_layout);
+      BOOST_TEST(std::abs(p[1] * std::sqrt(.75) - q[1]) < testing::rounded_layout);
     }
   // the drawing is Cartesian in both cases
   BOOST_TEST(std::abs(double(content(folder / "c.svg").size()) - double(svg.size())) < 100);

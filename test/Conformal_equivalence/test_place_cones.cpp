@@ -926,7 +926,7 @@ BOOST_AUTO_TEST_CASE(the_best_so_far_is_returned_when_the_visitor_stops)
     bool go_further() { return left-- > 0; }
   };
   const Triangulation t = triangulation(arms(3));
-  int n_done = 0;
+  int n_done = 0, n_best = 0;
   for(int n = 0; n < 200; ++n)
   {
     const auto placement = CE::place_cones(t, params::number_of_cones(std::size_t(5)).visitor(Impatient(n)));
@@ -940,8 +940,18 @@ BOOST_AUTO_TEST_CASE(the_best_so_far_is_returned_when_the_visitor_stops)
       continue;
     BOOST_TEST(placement.cones.size() == 5);
     BOOST_TEST(placement.maximum_log_scale_factor == largest(placement.metric.log_scale_factors));
+    if(n_best++ % 8 != 0) // a mesh gets the same
+      continue;
+    Mesh mesh = surface_mesh<Mesh>(arms(3));
+    auto angle = mesh.add_property_map<Vertex, double>("v:angle", -1).first;
+    const auto report = CE::place_cones(mesh, angle, params::number_of_cones(std::size_t(5)).visitor(Impatient(n)));
+    BOOST_TEST((report.status == CE::Status::STOPPED_BY_VISITOR));
+    BOOST_TEST(report.cones.size() == 5);
+    for(const auto& cone : report.cones)
+      BOOST_TEST(cone.angle == angle[cone.vertex]);
   }
   BOOST_TEST(n_done == 1);
+  BOOST_TEST(n_best > 0);
 }
 
 BOOST_AUTO_TEST_CASE(the_visitor_is_told_of_each_cone)
@@ -953,6 +963,8 @@ BOOST_AUTO_TEST_CASE(the_visitor_is_told_of_each_cone)
     void on_stage(CE::Stage stage) { stages.push_back(stage); }
     void on_progress(CE::Stage stage, std::size_t number, double measure)
     {
+      if(stage == CE::Stage::FLIP) // told of where the machine is slow
+        return;
       BOOST_TEST((stage == CE::Stage::PLACE));
       told.emplace_back(number, measure);
     }

@@ -29,9 +29,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <set>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -1101,6 +1104,44 @@ BOOST_AUTO_TEST_CASE(only_a_flip_of_the_same_rule_restores_a_length)
     BOOST_TEST(t.length(0) == (rule == Flip_rule::PTOLEMY ? 1.9 : back), boost::test_tools::tolerance(testing::few_roundings));
     BOOST_TEST((std::fabs(t.length(0) - 1.9) < testing::few_roundings) == (rule == Flip_rule::PTOLEMY));
   }
+}
+
+// Where flips take long, which they are made to do here, a visitor is told of them and may stop them; they can go on from there.
+BOOST_AUTO_TEST_CASE(a_visitor_stops_flips)
+{
+  struct Listener : public CE::Default_visitor
+  {
+    bool is_patient = false;
+    std::size_t times_told = 0, times_asked = 0;
+    void on_progress(CE::Stage stage, std::size_t, double) { times_told += stage == CE::Stage::FLIP; }
+    bool go_further() { ++times_asked; return is_patient; }
+  };
+  Random random(13);
+  const testing::Soup soup = testing::flat_grid(10);
+  Triangulation t = testing::triangulation(soup);
+  flip_at_random(t, soup.points, 500, random);
+  Flipper flipper(t);
+  Listener listener;
+  const auto visitor = CE::internal::Any_visitor::of(std::ref(listener));
+  std::size_t flips = 0;
+  const auto slowly = [&](Index)
+  {
+    ++flips;
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  };
+  const auto all = CE::internal::all_edges(t);
+  BOOST_TEST(!flipper.flip_to_delaunay(no_factors, all, Flip_rule::EUCLIDEAN, slowly, visitor));
+  BOOST_TEST(flipper.is_stopped());
+  BOOST_TEST((listener.times_told == 1 && listener.times_asked == 1));
+  BOOST_TEST(!flipper.unfinished_edges().empty());
+  const std::size_t before = flips;
+  BOOST_TEST(before > 0u);
+  BOOST_TEST(!flipper.flip_to_delaunay(no_factors, all, Flip_rule::EUCLIDEAN, slowly, visitor)); // asked at once, as it did not want to go on
+  BOOST_TEST(flips == before);
+  listener.is_patient = true;
+  BOOST_TEST(flipper.flip_to_delaunay(no_factors, all, Flip_rule::EUCLIDEAN, [](Index) {}, visitor));
+  BOOST_TEST(!flipper.is_stopped());
+  BOOST_TEST(flipper.verdict(no_factors).is_within_bounds);
 }
 
 BOOST_AUTO_TEST_CASE(budget)

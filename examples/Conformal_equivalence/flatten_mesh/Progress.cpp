@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "../include/flatten_mesh/Progress.h"
+#include "../include/flatten_mesh/figures.h"
 #include "../include/flatten_mesh/messages.h"
 
 #include <algorithm>
@@ -22,11 +23,12 @@ const double patience = 2;         // seconds in which nothing is said where no 
 const double seconds_to_next = 10; // between lines of one stage, and between those of different ones: components may have many short stages
 const double seconds_to_other = 1;
 
-volatile std::sig_atomic_t was_interrupted = 0;
+volatile std::sig_atomic_t number_of_interrupts = 0;
+bool is_heeded = false;
 
 void note_interrupt(int signal)
 {
-  was_interrupted = 1;
+  number_of_interrupts = 1;
   std::signal(signal, SIG_DFL);
 }
 
@@ -83,12 +85,24 @@ Progress::Kind kind_of_progress(const std::ostream& err, bool is_quiet)
   return Progress::Kind::LINES;
 }
 
-void stop_at_interrupt() { std::signal(SIGINT, note_interrupt); }
-
-bool is_interrupted() { return was_interrupted != 0; }
-
-void Progress_visitor::on_stage(CGAL::Conformal_equivalence::Stage stage)
+void stop_at_interrupt()
 {
+  number_of_interrupts = 0;
+  is_heeded = false;
+  std::signal(SIGINT, note_interrupt);
+}
+
+bool was_interrupted() { return number_of_interrupts != 0; }
+
+bool is_interrupted() { return was_interrupted() && ! is_heeded; }
+
+void heed_interrupt() { is_heeded = true; }
+
+bool is_interrupt_heeded() { return is_heeded; }
+
+void Progress_visitor::on_stage(CGAL::Conformal_equivalence::Stage next)
+{
+  stage = next;
   first_residual = 0;
   progress->begin(CGAL::Conformal_equivalence::stage_name(stage));
 }
@@ -102,10 +116,15 @@ void Progress_visitor::on_iteration(std::size_t iteration, double residual)
   progress->show(text(": Newton step ", iteration, ", residual ", residual), (std::max)(0., part));
 }
 
-void Progress_visitor::on_progress(CGAL::Conformal_equivalence::Stage stage, std::size_t number, double measure)
+// Flips are a part of what is going on; a search may have solved for a metric in between.
+void Progress_visitor::on_progress(CGAL::Conformal_equivalence::Stage next, std::size_t number, double measure)
 {
-  progress->begin(CGAL::Conformal_equivalence::stage_name(stage)); // the search may have solved for a metric in between
-  progress->show(text(": ", number, number == 1 ? " cone, " : " cones, ", measure), -1);
+  using CGAL::Conformal_equivalence::Stage;
+  if(next == Stage::FLIP)
+    return progress->show(text(": flipping edges, ", count(number, "flip", "flips"), ", ", measure, " edges to look at"), -1);
+  stage = next;
+  progress->begin(CGAL::Conformal_equivalence::stage_name(stage));
+  progress->show(text(": ", next == Stage::CORNERS ? count(number, "metric", "metrics") : count(number, "cone", "cones"), ", ", measure), -1);
 }
 
 } // namespace flattening

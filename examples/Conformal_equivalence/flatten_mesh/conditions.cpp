@@ -8,6 +8,7 @@
 #include "../include/flatten_mesh/each_component.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/Polygon_soup.h"
+#include "../include/flatten_mesh/Progress.h"
 #include "../include/flatten_mesh/Scanner.h"
 
 #include <CGAL/Conformal_equivalence/boundary_conditions.h>
@@ -201,14 +202,17 @@ void require_one_border(const std::array<Vertex, 4>& corners, const Mesh& mesh, 
 
 // Corners are chosen for disks only. Messages begin with `where`; `as_given(report)` has the numbers of elements in the file.
 template <typename As_given>
-std::array<Vertex, 4> chosen_corners(const std::string& where, const Mesh& mesh, As_given as_given)
+std::array<Vertex, 4> chosen_corners(const std::string& where, const Mesh& mesh, Progress& progress, As_given as_given)
 {
   const Halfedge bhd = first_border_halfedge(mesh);
   if(bhd == Mesh::null_halfedge())
     fail(where, "a rectangle needs a border, the mesh is closed");
   Report report;
+  Progress_visitor visitor(progress);
   const std::array<Vertex, 4> corners =
-    CE::select_rectangle_corners(mesh, bhd, CGAL::parameters::flattening_report(std::ref(report)));
+    CE::select_rectangle_corners(mesh, bhd, CGAL::parameters::flattening_report(std::ref(report)).visitor(std::ref(visitor)));
+  if(report.status == CE::Status::STOPPED_BY_VISITOR)
+    fail(where, "interrupted");
   if(report.status == CE::Status::MISSING_CONDITION)
     fail(where, "a rectangle needs at least 4 border vertices, there are ", border_cycle(mesh, bhd).size());
   if(! report)
@@ -228,7 +232,7 @@ void prescribe_a_rectangle(const std::array<Vertex, 4>& corners, const Mesh& mes
 }
 
 // Where corners are given; or each component becomes one.
-void prescribe_rectangles(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions)
+void prescribe_rectangles(const Options& options, const Mesh& mesh, const Given_surface& given, Progress& progress, Conditions& conditions)
 {
   const std::string file = options.input + ": ";
   const auto as_given = [&](Report report)
@@ -240,13 +244,13 @@ void prescribe_rectangles(const Options& options, const Mesh& mesh, const Given_
     return prescribe_a_rectangle(given_corners(*options.corners, mesh), mesh, conditions);
   const Components components(mesh);
   if(components.size() == 1)
-    return prescribe_a_rectangle(chosen_corners(file, mesh, as_given), mesh, conditions);
+    return prescribe_a_rectangle(chosen_corners(file, mesh, progress, as_given), mesh, conditions);
   for(std::size_t c = 0; c < components.size(); ++c)
   {
     Component_mesh part;
     components.get_mesh(c, part);
     const std::string where = file + name_of_component(given, part.faces.front(), part.faces.size());
-    std::array<Vertex, 4> corners = chosen_corners(where, part.mesh, [&](const Report& report)
+    std::array<Vertex, 4> corners = chosen_corners(where, part.mesh, progress, [&](const Report& report)
       { return as_given(failure_in_whole(part, report)); });
     for(Vertex& v : corners)
       v = part.vertices[v.idx()];
@@ -364,14 +368,14 @@ Conditions::Conditions(const Given_surface& given, Mesh& mesh) : Conditions(mesh
     is_diagonal[e] = flattening::is_diagonal(given, mesh, e);
 }
 
-void set_conditions(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions)
+void set_conditions(const Options& options, const Mesh& mesh, const Given_surface& given, Progress& progress, Conditions& conditions)
 {
   if(! options.cone_file.empty())
     set_cones(options, mesh, given, conditions);
   if(! options.holonomy_file.empty())
     read_loops(options.holonomy_file, mesh, given, conditions.loops);
   if(options.is_rectangle)
-    prescribe_rectangles(options, mesh, given, conditions);
+    prescribe_rectangles(options, mesh, given, progress, conditions);
   else
     read_border_conditions(options, mesh, given, conditions);
 }

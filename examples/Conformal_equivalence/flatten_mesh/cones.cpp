@@ -9,12 +9,17 @@
 
 namespace flattening {
 
+bool is_best_so_far(const Report& placement)
+{
+  return placement.status == CE::Status::STOPPED_BY_VISITOR && ! placement.cones.empty();
+}
+
 Report place_cones(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
 {
   Progress_visitor visitor(progress);
   const Report report = CE::place_cones(results.given.mesh, conditions.cone_angle,
                                         placement_parameters(options, results, visitor));
-  if(report && options.quanta_of_turn == 0)
+  if((report || is_best_so_far(report)) && options.quanta_of_turn == 0)
     for(const auto& cone : report.cones)
     {
       conditions.cone_angle[cone.vertex] = 2 * CGAL_PI;

@@ -82,6 +82,8 @@ std::vector<std::string> notices(const Options& options, const Given_surface& gi
 {
   std::vector<std::string> result;
   const auto say = [&](const auto&... parts) { result.push_back(one_line(text(options.input, ": ", parts...))); };
+  if(figures.is_search_stopped)
+    say("interrupted: the cones are the best that were found by then");
   for(const std::string& notice : given.notices)
     say(notice);
   if(! options.obj.empty() && ! given.attributes.face_normals.empty() && (options.target == Target::SPHERE || ! drawn.given_face.empty()))
@@ -138,7 +140,7 @@ void run(const Options& given_options, Output_files& files, std::ostream& out, s
   figures.reading_seconds = watch.seconds();
 
   Conditions conditions(given, mesh);
-  set_conditions(options, mesh, given, conditions);
+  set_conditions(options, mesh, given, *progress, conditions);
   Results results(mesh);
   figures.report = flatten(options, conditions, results, *progress);
   name_as_given(given, figures.report);
@@ -196,7 +198,7 @@ int flatten_mesh(int argc, const char* const argv[], std::ostream& out, std::ost
     else if(! options.printed.empty())
       out << printed_text(options.printed);
     else
-      return run_all(options, out, err) ? 0 : 1;
+      return ! run_all(options, out, err) ? 1 : is_interrupt_heeded() ? 3 : 0;
     return 0;
   }
   catch(const Usage_error& e)

@@ -161,6 +161,7 @@ void describe_made_mesh(const Results& results, bool is_refined, Figures& figure
   figures.repair = results.repair;
   figures.components = results.components;
   figures.placing_seconds = results.placing_seconds;
+  figures.is_search_stopped = results.is_search_stopped;
   figures.number_of_made_vertices = results.made.mesh.number_of_vertices();
   figures.number_of_made_faces = results.made.mesh.number_of_faces();
 }

@@ -261,7 +261,7 @@ void parse_options_of_target(const po::variables_map& values, const std::string&
     exclude(values, target, {"cones"});
   exclude(values, target, {"seamless", "frame", "keep-border", "local-repair"});
   if(options.target == Target::SPHERE)
-    exclude(values, target, {"projective", "html", "flat", "dxf", "true-scale"});
+    exclude(values, target, {"projective", "flat", "dxf", "true-scale"});
   if(is_given(values, "disk-centre"))
     exclude(values, "--disk-centre", {"disk-points", "moebius-weights"});
   if(is_given(values, "disk-points"))

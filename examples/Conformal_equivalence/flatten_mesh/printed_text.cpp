@@ -226,7 +226,8 @@ const char* const introduction =
 
 const char* const exit_status =
   "Exit status: 0 done, no triangle flipped (on sphere and disk: but for those that rounding has cost,\n"
-  "which are counted); 1 an input failed, and nothing is written of it; 2 wrong usage.\n";
+  "which are counted); 1 an input failed, and nothing is written of it; 2 wrong usage; 3 interrupted\n"
+  "(Ctrl-C) while cones were placed by --cones auto: the best that were found by then are written.\n";
 
 std::string printed_text(const std::string& what)
 {

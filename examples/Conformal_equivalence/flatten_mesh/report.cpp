@@ -243,7 +243,8 @@ std::size_t peak_memory_bytes()
 
 std::string status_text(const Figures& figures)
 {
-  return figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? "CONVERGED_TO_ROUNDING" : "OK";
+  return figures.is_search_stopped ? "STOPPED"
+       : figures.report.status == CE::Status::CONVERGED_TO_ROUNDING ? "CONVERGED_TO_ROUNDING" : "OK";
 }
 
 const char* mode_text(const Options& options)

@@ -3,6 +3,7 @@
 
 #include "../include/flatten_mesh/several_inputs.h"
 #include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/Progress.h"
 #include "../include/flatten_mesh/report_entries.h"
 #include "../include/flatten_mesh/write_outputs.h"
 
@@ -108,6 +109,8 @@ bool run_each(const Options& all, const std::function<void(const Options&, Outpu
       files.keep(options.report, report);
     try
     {
+      if(was_interrupted())
+        fail(options.input, ": interrupted");
       run(options, files);
     }
     catch(const std::exception& e)

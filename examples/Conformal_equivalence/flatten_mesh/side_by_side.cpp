@@ -223,9 +223,8 @@ void move_in_the_plane(const Components& components, const CE::internal::Texture
 // In rows and columns, with a gap, at numbers that have few digits.
 std::array<double, 2> centre(std::size_t component, std::size_t number_of_components)
 {
-  const double distance = 2.25;
   const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(double(number_of_components))));
-  return {{ distance * double(component % columns), distance * double(component / columns) }};
+  return {{ distance_of_centres * double(component % columns), distance_of_centres * double(component / columns) }};
 }
 
 // What is left of the points in point + centre: the difference is exact, as the centre is 0 or larger than the radius.

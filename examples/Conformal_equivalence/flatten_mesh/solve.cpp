@@ -74,7 +74,10 @@ Report flatten(const Options& options, const Conditions& conditions, Results& re
     const Stopwatch watch;
     placement = for_each_component(options, conditions, results, progress, place_cones_on_component);
     results.placing_seconds = watch.seconds();
-    if(! placement)
+    results.is_search_stopped = is_best_so_far(placement);
+    if(results.is_search_stopped)
+      heed_interrupt(); // what is left to do is done with these cones
+    else if(! placement)
       return placement;
   }
   if(options.local_repair)

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "../include/flatten_mesh/layout_files.h"
-#include "../include/flatten_mesh/color_scale.h"
 #include "../include/flatten_mesh/layout_outline.h"
 #include "../include/flatten_mesh/messages.h"
 #include "../include/flatten_mesh/page_text.h"
@@ -101,17 +100,11 @@ private:
 
   void write_header(Text_buffer& out) const
   {
-    Finite_range x, y;
-    for(Halfedge h : mesh_.halfedges())
-      if(! mesh_.is_border(h))
-      {
-        x.insert(place(h)[0]);
-        y.insert(place(h)[1]);
-      }
+    const Layout_box box = layout_box(mesh_, uv_);
     out << "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$EXTMIN\n";
-    write_point(out, {{ x.lower, y.lower }});
+    write_point(out, {{ box.x.lower * scale_, box.y.lower * scale_ }});
     out << "9\n$EXTMAX\n";
-    write_point(out, {{ x.upper, y.upper }});
+    write_point(out, {{ box.x.upper * scale_, box.y.upper * scale_ }});
     out << "0\nENDSEC\n";
   }
 

@@ -3,6 +3,7 @@
 
 #include "../include/flatten_mesh/layout_files.h"
 #include "../include/flatten_mesh/color_scale.h"
+#include "../include/flatten_mesh/layout_outline.h"
 #include "../include/flatten_mesh/seamless.h"
 
 #include <algorithm>
@@ -20,14 +21,8 @@ Pattern texture_pattern(const Options& options)
 
 double texture_repetitions(const Result& result)
 {
-  Finite_range x, y;
-  for(Halfedge h : result.mesh.halfedges())
-    if(! result.mesh.is_border(h))
-    {
-      x.insert(result.uv[h].x());
-      y.insert(result.uv[h].y());
-    }
-  const double longest = (std::max)(x.upper - x.lower, y.upper - y.lower);
+  const Layout_box box = layout_box(result.mesh, result.uv);
+  const double longest = (std::max)(box.x.upper - box.x.lower, box.y.upper - box.y.lower);
   return longest > 0 && std::isfinite(longest) ? 0.5 / round_number_below(longest / 14) : 1;
 }
 

@@ -6,6 +6,7 @@
 #include "../include/flatten_mesh/Components.h"
 #include "../include/flatten_mesh/layout_files.h"
 #include "../include/flatten_mesh/messages.h"
+#include "../include/flatten_mesh/side_by_side.h"
 #include "../include/flatten_mesh/Split_surface.h"
 #include "../include/flatten_mesh/Stopwatch.h"
 #include "../include/flatten_mesh/write_HTML.h"
@@ -191,7 +192,14 @@ HTML_options page_options(const Options& options, const Mesh& mesh, const Result
   page.symmetry = options.seamless ? figures.report.tiling.symmetry : 0;
   page.mode = options.color_by_quasi_conformal_factor ? "quasi-conformal" : "pattern";
   page.hidden_edges = drawing.hidden_edges;
-  page.circles = drawing.circles;
+  if(options.target == Target::SPHERE)
+  {
+    for(Vertex v : result.mesh.vertices())
+      page.points_of_spheres.push_back(placed_point(result, result.image, v.idx()));
+    page.distance_of_spheres = distance_of_centres;
+  }
+  else
+    page.circles = drawing.circles;
   const bool is_made = &result.mesh != &mesh;
   if(is_made || ! figures.given->is_mesh())
     for(Face f : result.mesh.faces())

@@ -13,6 +13,7 @@
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Rectangle_corners.h>
 #include <CGAL/Conformal_equivalence/internal/parameter_readers.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
@@ -83,7 +84,7 @@ namespace internal {
 template <typename TriangleMesh>
 std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4>
 find_rectangle_corners(const Imported_mesh<TriangleMesh>& mesh, typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd,
-                       Retriangulation retriangulation, Flattening_report<TriangleMesh>& report)
+                       Retriangulation retriangulation, const Any_visitor& visitor, Flattening_report<TriangleMesh>& report)
 {
   std::array<typename boost::graph_traits<TriangleMesh>::vertex_descriptor, 4> corners;
   corners.fill(boost::graph_traits<TriangleMesh>::null_vertex());
@@ -92,7 +93,7 @@ find_rectangle_corners(const Imported_mesh<TriangleMesh>& mesh, typename boost::
   if(!bool(report))
     return corners;
   const std::uint32_t first = mesh.triangulation.next_on_border(mesh.index_of_halfedge(opposite(bhd, mesh.mesh())));
-  const Rectangle_corners found = internal::select_rectangle_corners(mesh.triangulation, first, retriangulation);
+  const Rectangle_corners found = internal::select_rectangle_corners(mesh.triangulation, first, retriangulation, visitor);
   report.status = found.status;
   report.amount = found.amount;
   name_elements(mesh, found.vertices, {}, {}, report);
@@ -126,6 +127,7 @@ find_rectangle_corners(const Imported_mesh<TriangleMesh>& mesh, typename boost::
 ///     \cgalParamType{`Retriangulation`}
 ///     \cgalParamDefault{`Retriangulation::WHEN_NEEDED`}
 ///   \cgalParamNEnd
+///   \cgalParamNBegin{visitor} \cgalParamDescription{as in `Conformal_metric_solver::solve()`} \cgalParamNEnd
 ///   \cgalParamNBegin{flattening_report}
 ///     \cgalParamDescription{is told why there are no corners}
 ///     \cgalParamType{`std::reference_wrapper<Flattening_report<TriangleMesh> >`}
@@ -149,7 +151,7 @@ select_rectangle_corners(const TriangleMesh& tm,
   Flattening_report<TriangleMesh> report = internal::import_report(mesh);
   const Retriangulation retriangulation = parameters::choose_parameter(
     parameters::get_parameter(np, internal_np::conformal_retriangulation), Retriangulation::WHEN_NEEDED);
-  const auto corners = internal::find_rectangle_corners(mesh, bhd, retriangulation, report);
+  const auto corners = internal::find_rectangle_corners(mesh, bhd, retriangulation, internal::visitor_of(np), report);
   internal::write_if_given(np, internal_np::conformal_report, report);
   return corners;
 }

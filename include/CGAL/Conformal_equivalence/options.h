@@ -89,7 +89,9 @@ enum class Stage
   CUT,    ///< cutting the surface open
   LAYOUT, ///< from lengths to points of the plane
   VERIFY, ///< orientations of the triangles
-  PLACE   ///< the search for places of cones
+  PLACE,  ///< the search for places of cones
+  CORNERS, ///< the search for the corners of a rectangle
+  FLIP    ///< flips of edges, as a part of `SOLVE`: told of by `on_progress()` only, where they take long
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -104,6 +106,8 @@ inline const char* stage_name(Stage stage)
     case Stage::LAYOUT: return "laying out";
     case Stage::VERIFY: return "verifying";
     case Stage::PLACE:  return "placing cones";
+    case Stage::CORNERS: return "choosing corners";
+    case Stage::FLIP:   return "flipping edges";
   }
   return "";
 }

@@ -232,9 +232,10 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \return the report, with the cones. Maps are written iff it is a success, or `BOUND_NOT_MET`: then with the best placement found, `amount` is its
-///         largest |u| if that is too large, else its area distortion if that is, else its root mean square of u. Statuses: those of
-///         `import_mesh()`; `WRONG_TOPOLOGY` (several components); `MISSING_CONDITION` (neither number nor bounds; or fewer than three cones on a
+/// \return the report, with the cones. Maps are written iff there are any: if it is a success; with `STOPPED_BY_VISITOR`, if a placement had been
+///         solved for by then, with the best of these; and with `BOUND_NOT_MET`: then with the best placement found, `amount` is its largest |u| if
+///         that is too large, else its area distortion if that is, else its root mean square of u. Statuses: those of `import_mesh()`;
+///         `WRONG_TOPOLOGY` (several components); `MISSING_CONDITION` (neither number nor bounds; or fewer than three cones on a
 ///         sphere); `TOO_MANY_CONES` (more than vertices); `ANGLE_OUT_OF_RANGE` (the quantum is not 2 pi / n); `NOT_QUANTIZABLE`; those of
 ///         `Conformal_metric_solver::solve()`.
 ///
@@ -255,7 +256,7 @@ Flattening_report<TriangleMesh> place_cones(const TriangleMesh& tm,
   {
     const Cone_placement<double> placement = place_cones(mesh.triangulation, np);
     internal::report_cones(mesh, placement, report);
-    if(bool(report) || report.status == Status::BOUND_NOT_MET)
+    if(internal::has_cones(placement))
     {
       internal::write_cone_angles(mesh, report, cone_angle_map);
       internal::write_log_scale_factors(mesh, placement.metric, np);

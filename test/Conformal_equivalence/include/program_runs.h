@@ -10,6 +10,7 @@
 #include "boost_test.h"
 #include "check_flattening.h"
 #include "test_meshes.h"
+#include "tolerances.h"
 
 #include "../../../examples/Conformal_equivalence/include/flatten_mesh/flatten_mesh.h"
 

@@ -37,6 +37,22 @@ constexpr double layout_angle = 1e-11;
 // and there are some hundred from one end to the other.
 constexpr double rounded_layout = 1e-13;
 
+// Of layouts that come from the whole program, whose files have all digits. Radians; relative, for lengths and areas: each of the some hundred
+// triangles on the way from one end of the layout to another may be off by the solver's tolerance, and passes it on.
+constexpr double summed_residuals = 100 * solver_tolerance;
+
+// The same, where the way is of some ten triangles, as to their neighbors: for distances in a layout of a diameter of about one.
+constexpr double few_residuals = 10 * solver_tolerance;
+
+// The same for differences of two layouts, or of sums over a thousand triangles, each with its own residuals.
+constexpr double many_residuals = 1000 * solver_tolerance;
+
+// Sums and differences of some angles that are off by `summed_residuals`, in degrees.
+constexpr double summed_residuals_in_degrees = 180 / 3.14159265358979 * summed_residuals;
+
+// Numbers with 200 bits, which are 60 decimal digits, of which some operations may take three.
+constexpr double rounding_of_200_bits = 1e-57;
+
 // Numbers of 50 digits, after some thousand operations, relative.
 constexpr double wide_rounding = 1e-45;
 

@@ -94,10 +94,45 @@ export function pick_everywhere()
           continue;
         }
         ++result.hits;
-        const [p, q] = view.project(view.is_plane ? mark.on_layout : mark.on_surface);
+        const [p, q] = view.project(page.place_in(view, mark));
         result.largest_error = Math.max(result.largest_error, Math.hypot(p - x, q - y));
       }
   return result;
+}
+
+// How often triangles are drawn to find what is under a cursor that moves over a picture.
+export function drawings_of_search()
+{
+  const page = flatten_mesh_page, { renderer } = page, render = renderer.render;
+  let number = 0;
+  renderer.render = (...values) => { ++number; return render.apply(renderer, values); };
+  for(let i = 0; i < 20; ++i)
+    page.find(page.layout, { x: page.layout.element.clientWidth / 2 + i, y: page.layout.element.clientHeight / 2 });
+  renderer.render = render;
+  return number;
+}
+
+// How many colours there are among pixels of a row through the middle of the pictures, as they were drawn last; and what the note says.
+export function drawn_at_once()
+{
+  const page = globalThis.flatten_mesh_page, note = document.getElementById("note").textContent;
+  if(! page)
+    return { note, colors: 0 };
+  const gl = page.renderer.getContext(), pixels = new Uint8Array(4 * gl.drawingBufferWidth);
+  gl.readPixels(0, gl.drawingBufferHeight >> 1, gl.drawingBufferWidth, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  return { note, colors: new Set(new Uint32Array(pixels.buffer)).size };
+}
+
+// Whether everything in the header is in one row, and each group of it in one line.
+export async function header()
+{
+  await new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+  const middle = x => { const box = x.getBoundingClientRect(); return Math.round(box.top + box.height / 2); };
+  const rows = items => Math.max(...items.map(middle)) - Math.min(...items.map(middle));
+  const groups = [...document.querySelectorAll(".choices")].filter(x => x.children.length);
+  return { rows: rows([...document.querySelector("header").children].filter(x => x.children.length || x.textContent)),
+           lines: Math.max(...groups.map(x => rows([...x.children]))), toggles: document.getElementById("toggles").children.length,
+           overflow: document.documentElement.scrollWidth - innerWidth };
 }
 
 export function middle_of(id)

@@ -217,6 +217,52 @@ async function test_places(browser)
   await browser.set_window(800, 560);
 }
 
+// The header keeps to one row where pictures are side by side.
+async function test_header(browser)
+{
+  for(const width of [1400, 1000])
+  {
+    await browser.set_window(width, 700);
+    const header = await ask(browser, in_page.header);
+    assert.equal(header.toggles, 4, "a disk with cones and weights can show everything");
+    assert(header.rows <= 2 && header.lines <= 2 && header.overflow <= 0, `at a width of ${width}: ${JSON.stringify(header)}`);
+  }
+  await browser.set_window(800, 560);
+}
+
+// The page is drawn when it is loaded, even if no frame, timer or observer ever comes.
+async function test_drawn_at_once(browser, file)
+{
+  const never = "requestAnimationFrame = setTimeout = setInterval = queueMicrotask = () => 0; ResizeObserver = class { observe() {} };";
+  const { identifier } = await browser.send("Page.addScriptToEvaluateOnNewDocument", { source: never });
+  await browser.open(file);
+  const { note, colors } = await ask(browser, in_page.drawn_at_once);
+  await browser.send("Page.removeScriptToEvaluateOnNewDocument", { identifier });
+  assert.equal(note, "");
+  assert(colors > 10, `only ${colors} colours are drawn`);
+}
+
+async function test_sphere(browser, file)
+{
+  await open(browser, file);
+  const found = await ask(browser, in_page.pick_everywhere);
+  assert(found.hits > 30 && found.misses > 10, JSON.stringify(found));
+  assert(found.largest_error < .75, `points under pixels are drawn up to ${found.largest_error} pixels away`);
+  await test_links(browser);
+  const [x, y] = await middle_of(browser, "layout"), lines = await ask(browser, in_page.canvas_image);
+  await browser.mouse("mouseMoved", x, y);
+  assert.match((await ask(browser, in_page.marks, "hovered")).reading["Latitude, longitude"], /^[^ ]+\u00b0, [^ ]+\u00b0$/);
+  for(let i = 0; i < 4; ++i)
+    await browser.key("]");
+  assert(await ask(browser, in_page.difference_from, lines) > .002, "the lines do not change");
+  await ask(browser, in_page.focus, "layout");
+  const before = await ask(browser, in_page.camera, "layout");
+  await browser.key("ArrowLeft");
+  assert.notDeepEqual(await ask(browser, in_page.camera, "layout"), before);
+  await browser.key("3");
+  assert.equal((await ask(browser, in_page.state)).mode, "area");
+}
+
 async function test_without_graphics(browser, file)
 {
   const { identifier } = await browser.send("Page.addScriptToEvaluateOnNewDocument", { source: "HTMLCanvasElement.prototype.getContext = () => null;" });
@@ -247,7 +293,10 @@ try
   const disk = make_page("disk", "nefertiti.off", "--cones", "auto=4", "--projective");
   say("a disk with cones");
   await open(browser, disk);
+  await test_header(browser);
   await test_pictures(browser);
+  const drawings = await ask(browser, in_page.drawings_of_search);
+  assert(drawings <= 2, `triangles are drawn ${drawings} times for one picture that is searched`);
   await test_links(browser);
   await test_keys(browser);
   await test_histogram(browser);
@@ -258,6 +307,10 @@ try
   await compare_with_reference(browser, "pattern");
   await browser.key("3");
   await compare_with_reference(browser, "area");
+  say("without frames and timers");
+  await test_drawn_at_once(browser, disk);
+  say("a sphere");
+  await test_sphere(browser, make_page("sphere", "bear.off", "--target", "sphere"));
   say("without WebGL");
   await test_without_graphics(browser, disk);
   for(const [symmetry, mesh, ...options] of lattices)

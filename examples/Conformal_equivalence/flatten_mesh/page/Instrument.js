@@ -1,7 +1,7 @@
 // The two pictures together: what is shown in them, what is under the cursor, and when they are drawn anew.
 
 import * as THREE from "three";
-import { carried_over, image_of, point_in, point_of } from "./data.js";
+import { carried_over, direction_on_sphere, image_of, point_in, point_of } from "./data.js";
 import { evaluate, make_quantities, number_text } from "./quantities.js";
 import { corners_of_face, make_samples, make_textures, make_uniforms } from "./surface.js";
 import { View } from "./View.js";
@@ -10,11 +10,12 @@ import { Picker } from "./picking.js";
 
 export const modes = ["pattern", "u", "area", "quasi-conformal"];
 
-const many_faces = 300000; // where one search more per frame would be felt
+const many_faces = 300000; // where one search more per frame would be felt, and triangles are as small as pixels, so that smooth edges show nothing
 
 // The smallest and the largest squares on the surface, and those at first, where the surface is 2 long.
 const square_sizes = { least: .004, most: 1, first: .09 };
 const most_parts_of_tile = 64;
+const graticules = [1, 2, 3, 5, 6, 10, 15, 18, 30, 45]; // degrees that divide 90
 
 export class Instrument
 {
@@ -24,18 +25,18 @@ export class Instrument
     this.reading = reading;
     this.quantities = make_quantities(data);
     THREE.ColorManagement.enabled = false; // colours are written as they are given
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: data.number_of_faces < many_faces, preserveDrawingBuffer: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setScissorTest(true);
     this.uniforms = make_uniforms(data, make_textures(data), this.quantities.log_ratio);
     this.cone_uniforms = { inside: { value: new THREE.Vector3() }, rim: { value: new THREE.Vector3() }, size: { value: 10 } };
-    const make_view = (element, is_plane) => new View(element, data, this.uniforms, this.cone_uniforms, is_plane, () => this.schedule());
+    const make_view = (element, is_image) => new View(element, data, this.uniforms, this.cone_uniforms, is_image, () => this.schedule());
     this.surface = make_view(surface_element, false);
     this.layout = make_view(layout_element, true);
     this.views = [this.surface, this.layout];
     this.overlays = new Map(this.views.map(v => [v, new Overlay(v)]));
     this.picker = new Picker(this.renderer);
-    this.hovered = this.fixed = null; // { face, on_surface, on_layout, is_hidden }
+    this.hovered = this.fixed = null; // { face, on_surface, on_layout, hidden }: `hidden` has the views that do not show it
     this.cones_of_corners = new Map(data.cones.flatMap(cone => cone.corners.map(c => [c, cone])));
     for(const view of this.views)
       this.listen(view);
@@ -59,7 +60,10 @@ export class Instrument
 
   resize()
   {
-    const canvas = this.renderer.domElement, ratio = Math.min(devicePixelRatio || 1, 3);
+    const canvas = this.renderer.domElement, ratio = Math.min(devicePixelRatio || 1, 3), size = [canvas.clientWidth, canvas.clientHeight, ratio].join();
+    if(size === this.size) // an observer tells it at first, too
+      return;
+    this.size = size;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
     this.cone_uniforms.size.value = 11 * ratio;
@@ -77,7 +81,7 @@ export class Instrument
       this.hover(this.sought);
     this.sought = null;
     const height = this.renderer.domElement.clientHeight;
-    const is_moved = this.surface.is_dirty;
+    const moved = this.views.filter(view => view.is_dirty && ! view.is_plane);
     for(const view of this.views)
     {
       if(! view.is_dirty)
@@ -88,10 +92,11 @@ export class Instrument
       this.renderer.setScissor(x, height - y - h, w, h);
       this.renderer.render(view.scene, view.camera);
     }
-    if(is_moved && this.data.number_of_faces < many_faces)
-      for(const mark of [this.hovered, this.fixed])
-        if(mark)
-          mark.is_hidden = this.is_hidden(mark);
+    if(this.data.number_of_faces < many_faces)
+      for(const view of moved)
+        for(const mark of [this.hovered, this.fixed])
+          if(mark)
+            this.find_whether_hidden(mark, view);
     for(const view of this.views)
       for(const name of ["hovered", "fixed"])
         this.draw_mark(view, name);
@@ -103,8 +108,12 @@ export class Instrument
     const mark = this[name], overlay = this.overlays.get(view);
     if(! mark)
       return overlay.draw(name, null);
-    const point = view.is_plane ? mark.on_layout : mark.on_surface;
-    overlay.draw(name, point, corners_of_face(this.data, mark.face, view.is_plane ? image_of : point_of), ! view.is_plane && mark.is_hidden);
+    overlay.draw(name, this.place_in(view, mark), corners_of_face(this.data, mark.face, view.is_image ? image_of : point_of), mark.hidden.has(view));
+  }
+
+  place_in(view, mark)
+  {
+    return view.is_image ? mark.on_layout : mark.on_surface;
   }
 
   // ---- what is under the cursor
@@ -148,23 +157,29 @@ export class Instrument
   mark_of(face, coordinates, view)
   {
     const { data } = this, is_projective = this.uniforms.is_projective.value;
-    const other = carried_over(data, face, coordinates, ! view.is_plane, is_projective);
-    const [in_space, in_plane] = view.is_plane ? [other, coordinates] : [coordinates, other];
-    const mark = { face, on_surface: point_in(data, face, in_space, point_of), on_layout: point_in(data, face, in_plane, image_of), is_hidden: false };
-    if(view.is_plane)
-      mark.is_hidden = this.is_hidden(mark);
+    const other = carried_over(data, face, coordinates, ! view.is_image, is_projective);
+    const [in_space, in_plane] = view.is_image ? [other, coordinates] : [coordinates, other];
+    const mark = { face, on_surface: point_in(data, face, in_space, point_of), on_layout: point_in(data, face, in_plane, image_of), hidden: new Set() };
+    for(const other of this.views)
+      if(other !== view && ! other.is_plane)
+        this.find_whether_hidden(mark, other);
     return mark;
   }
 
-  // Whether something of the surface is in front of it.
-  is_hidden(mark)
+  find_whether_hidden(mark, view)
   {
-    const [x, y] = this.surface.project(mark.on_surface), found = this.picker.pick(this.surface, x, y);
+    mark.hidden[this.is_hidden(mark, view) ? "add" : "delete"](view);
+  }
+
+  // Whether something of the surface or of the sphere is in front of it.
+  is_hidden(mark, view)
+  {
+    const place = this.place_in(view, mark), [x, y] = view.project(place), found = this.picker.pick(view, x, y);
     if(! found || found.face === mark.face)
       return false;
-    const { camera } = this.surface, seen = point_in(this.data, found.face, found.coordinates, point_of);
-    const distance = mark.on_surface.distanceTo(camera.position);
-    return seen.distanceTo(camera.position) < .995 * distance && seen.distanceTo(mark.on_surface) > .01 * distance;
+    const { camera } = view, seen = point_in(this.data, found.face, found.coordinates, view.is_image ? image_of : point_of);
+    const distance = place.distanceTo(camera.position);
+    return seen.distanceTo(camera.position) < .995 * distance && seen.distanceTo(place) > .01 * distance;
   }
 
   hover({ view, x, y })
@@ -192,9 +207,11 @@ export class Instrument
   {
     if(! this.fixed)
       return;
-    const [a, b, c] = corners_of_face(this.data, this.fixed.face, point_of);
-    this.surface.show(this.fixed.on_surface, b.sub(a).cross(c.sub(a)).normalize());
-    this.layout.show(this.fixed.on_layout);
+    for(const view of this.views)
+    {
+      const [a, b, c] = corners_of_face(this.data, this.fixed.face, view.is_image ? image_of : point_of);
+      view.show(this.place_in(view, this.fixed), view.is_plane ? null : b.sub(a).cross(c.sub(a)).normalize());
+    }
   }
 
   // Fixes the next of the cones.
@@ -221,9 +238,15 @@ export class Instrument
       ["Area factor", quantities.area.text(quantities.area.of(face))],
       ["Quasi-conformal", number_text(quantities["quasi-conformal"].of(face))],
       ["Surface", original(mark.on_surface, data.surfaceCentre, data.surfaceRadius, 3)],
-      ["Layout", original(mark.on_layout, data.centre, data.radius, 2)],
+      data.is_sphere ? ["Latitude, longitude", this.angles_text(mark.on_layout)] : ["Layout", original(mark.on_layout, data.centre, data.radius, 2)],
       ...(cone ? [["Cone", `${number_text(cone.angle)}\u00b0, vertex ${cone.vertex}`]] : [])
     ];
+  }
+
+  angles_text(point)
+  {
+    const { x, y, z } = direction_on_sphere(this.data, point), degrees = t => number_text(t / Math.PI * 180) + "\u00b0";
+    return `${degrees(Math.atan2(z, Math.hypot(x, y)))}, ${degrees(Math.atan2(y, x))}`;
   }
 
   // ---- what is shown
@@ -275,6 +298,8 @@ export class Instrument
 
   first_pattern_size()
   {
+    if(this.data.is_sphere)
+      return graticules.indexOf(10) / (graticules.length - 1);
     return this.data.symmetry ? 1 : Math.log(square_sizes.first / square_sizes.least) / Math.log(square_sizes.most / square_sizes.least);
   }
 
@@ -283,9 +308,16 @@ export class Instrument
   set_pattern_size(size)
   {
     this.pattern_size = size;
-    this.pattern_text = this.data.symmetry ? this.set_tiles(Math.round(most_parts_of_tile ** (1 - size))) : this.set_squares(size);
+    this.pattern_text = this.data.is_sphere ? this.set_graticule(graticules[Math.round(size * (graticules.length - 1))])
+                      : this.data.symmetry ? this.set_tiles(Math.round(most_parts_of_tile ** (1 - size))) : this.set_squares(size);
     this.redraw();
     return this.pattern_text;
+  }
+
+  set_graticule(degrees)
+  {
+    this.uniforms.graticule.value = degrees;
+    return `latitudes and longitudes ${degrees}\u00b0 apart`;
   }
 
   set_squares(size)

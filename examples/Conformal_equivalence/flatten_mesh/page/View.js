@@ -11,15 +11,18 @@ const angle_of_view = 28; // degrees
 
 export class View
 {
-  constructor(element, data, uniforms, cone_uniforms, is_plane, on_change)
+  constructor(element, data, uniforms, cone_uniforms, is_image, on_change)
   {
+    const is_plane = is_image && ! data.is_sphere;
     this.element = element;
     this.data = data;
+    this.is_image = is_image;
     this.is_plane = is_plane;
     this.is_dirty = true;
+    this.number_of_changes = 0; // of what is seen
     this.on_change = on_change;
-    this.fill = make_fill(data, uniforms, is_plane);
-    this.layers = {
+    this.fill = make_fill(data, uniforms, is_image);
+    this.layers = data.is_sphere ? {} : {
       seams: make_seams(data, is_plane), border: make_border(data, is_plane), cones: make_cones(data, is_plane, cone_uniforms),
       circles: is_plane ? make_circles(data) : null, cut: is_plane ? make_cut(data) : null
     };
@@ -29,11 +32,12 @@ export class View
       if(layer)
         this.scene.add(layer);
     this.pick_scene = new THREE.Scene();
-    this.pick_scene.add(make_pickable(data, uniforms, is_plane));
+    this.pick_scene.add(make_pickable(data, uniforms, is_image));
     this.camera = is_plane ? new THREE.OrthographicCamera(-1, 1, 1, -1, .1, 10) : new THREE.PerspectiveCamera(angle_of_view, 1, .01, 100);
+    this.camera.up.set(0, ...(is_image && ! is_plane ? [0, 1] : [1, 0])); // spheres have their poles on the z-axis
     this.controls = this.make_controls();
     this.extent = this.find_extent();
-    this.initial_direction = is_plane ? directions.front : this.find_direction();
+    this.initial_direction = is_plane ? directions.front : data.is_sphere && is_image ? [1, .6, .6] : this.find_direction();
     this.reset();
   }
 
@@ -65,15 +69,17 @@ export class View
       this.camera.updateProjectionMatrix();
     }
     this.is_dirty = true;
+    ++this.number_of_changes;
     this.on_change();
   }
 
-  // Of the surface the radius about the origin, of the layout half of its width and of its height; with its circles.
+  // Of the surface and of spheres the radius about the origin, of the layout half of its width and of its height; with its circles.
   find_extent()
   {
-    const { points: p, layout: q, circles, centre, radius } = this.data;
+    const { layout: q, circles, centre, radius } = this.data;
     if(! this.is_plane)
     {
+      const p = this.is_image ? q : this.data.points;
       let largest = 0;
       for(let i = 0; i < p.length; i += 3)
         if(Number.isFinite(p[i] + p[i + 1] + p[i + 2]))
@@ -120,10 +126,9 @@ export class View
     const [x, y, z] = directions[direction] || this.initial_direction;
     const c = this.camera;
     this.controls.target.set(0, 0, 0);
-    c.up.set(0, 1, 0);
     c.zoom = 1;
+    this.fit(); // the distance depends on the shape
     c.position.set(x, y, z).setLength(this.is_plane ? 2 : this.distance());
-    this.fit();
     this.controls.update();
     this.changed();
   }
@@ -131,7 +136,7 @@ export class View
   distance()
   {
     const aspect = this.camera.aspect || 1, half = angle_of_view / 360 * Math.PI;
-    return 1.04 * this.extent[0] / Math.sin(Math.min(half, Math.atan(Math.tan(half) * aspect)));
+    return 1.07 * this.extent[0] / Math.sin(Math.min(half, Math.atan(Math.tan(half) * aspect)));
   }
 
   // Gives the camera the shape of the element.
@@ -140,7 +145,8 @@ export class View
     const w = this.element.clientWidth || 1, h = this.element.clientHeight || 1, c = this.camera;
     if(this.is_plane)
     {
-      const unit = 1.12 * Math.max(this.extent[0] / w, this.extent[1] / h);
+      const heading = h > 200 ? 30 : 0; // pixels, above what is seen at first; and below, as the origin is in the middle
+      const unit = Math.max(1.12 * this.extent[0] / w, 1.06 * this.extent[1] / (h - 2 * heading));
       c.left = -unit * w;
       c.right = unit * w;
       c.top = unit * h;
@@ -186,10 +192,10 @@ export class View
     }
     else
     {
-      const r = offset.length(), longitude = Math.atan2(offset.x, offset.z) + 2 * x;
-      const latitude = Math.max(-1.55, Math.min(1.55, Math.asin(offset.y / r) + 2 * y));
+      const upright = c.quaternion.clone().setFromUnitVectors(c.up, new THREE.Vector3(0, 1, 0)), r = offset.applyQuaternion(upright).length();
+      const longitude = Math.atan2(offset.x, offset.z) + 2 * x, latitude = Math.max(-1.55, Math.min(1.55, Math.asin(offset.y / r) + 2 * y));
       c.position.set(r * Math.cos(latitude) * Math.sin(longitude), r * Math.sin(latitude), r * Math.cos(latitude) * Math.cos(longitude))
-                .add(this.controls.target);
+                .applyQuaternion(upright.invert()).add(this.controls.target);
     }
     this.controls.update();
     this.changed();

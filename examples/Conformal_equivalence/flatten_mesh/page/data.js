@@ -35,6 +35,7 @@ export function read_data()
   data.number_of_corners = data.u.length;
   data.number_of_faces = data.triangles.length / 3;
   data.has_weights = data.weights.length > 0;
+  data.is_sphere = data.distanceOfSpheres > 0;
   return data;
 }
 
@@ -45,7 +46,7 @@ export function point_of(data, corner)
 
 export function image_of(data, corner)
 {
-  return new THREE.Vector3(data.layout[2 * corner], data.layout[2 * corner + 1], 0);
+  return data.is_sphere ? new THREE.Vector3().fromArray(data.layout, 3 * corner) : new THREE.Vector3(data.layout[2 * corner], data.layout[2 * corner + 1], 0);
 }
 
 // A corner of the face, 0, 1 or 2.
@@ -66,6 +67,15 @@ export function carried_over(data, face, coordinates, to_layout, is_projective)
   });
   const sum = result[0] + result[1] + result[2];
   return result.map(x => x / sum);
+}
+
+// The direction of a point near a sphere from its centre; it is not normalized.
+export function direction_on_sphere(data, point)
+{
+  const d = data.distanceOfSpheres, p = point.clone().multiplyScalar(data.radius).add(new THREE.Vector3(...data.centre));
+  p.x -= d * Math.round(p.x / d);
+  p.y -= d * Math.round(p.y / d);
+  return p;
 }
 
 // The point with these barycentric coordinates: of the surface or of the layout, as `place` says (point_of or image_of).

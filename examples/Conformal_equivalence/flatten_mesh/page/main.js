@@ -26,6 +26,12 @@ function start()
     return refuse(`${data.number_of_faces} triangles are more than this graphics card takes.`);
   trial.getExtension("WEBGL_lose_context")?.loseContext();
 
+  if(data.is_sphere)
+  {
+    const pane = element("layout");
+    pane.querySelector("h2").textContent = "Sphere";
+    pane.setAttribute("aria-label", pane.getAttribute("aria-label").replace("Layout. Arrows move it", "Sphere. Arrows turn it"));
+  }
   const reading = make_reading(element("reading"));
   reading.show(null);
   const instrument = new Instrument(data, element("canvas"), element("surface"), element("layout"), reading);
@@ -35,9 +41,10 @@ function start()
   listen_to_keys(instrument, panel);
   element("canvas").addEventListener("webglcontextlost", () => { note.textContent = "The graphics card was lost. Please load the page again."; });
   new ResizeObserver(() => instrument.histogram.draw()).observe(element("histogram"));
+  instrument.resize(); // draws
   note.textContent = "";
   globalThis.flatten_mesh_page = instrument; // for tests, and for the curious
 }
 
-// The note is painted first.
-requestAnimationFrame(() => setTimeout(start));
+// At once: frames and timers may never come where nobody looks, as in a window in the background, or in a browser that makes a picture of the page.
+start();

@@ -19,6 +19,7 @@ export function make_reading(list)
 {
   const hint = () => {
     const div = document.createElement("div"), text = document.createElement("dt");
+    div.className = "hint";
     text.textContent = "Point at a picture";
     div.append(text);
     return div;
@@ -28,6 +29,7 @@ export function make_reading(list)
     {
       list.replaceChildren(...(lines ? lines.map(([name, value]) => {
         const div = document.createElement("div"), dt = document.createElement("dt"), dd = document.createElement("dd");
+        div.classList.toggle("wide", name === "Surface"); // three numbers
         dt.textContent = name;
         dd.textContent = dd.title = value;
         div.append(dt, dd);

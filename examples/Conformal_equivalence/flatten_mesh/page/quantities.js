@@ -5,13 +5,16 @@
 export function total_areas(data)
 {
   const { points: p, layout: q, triangles: t } = data;
+  const area_of = (p, a, b, c) => {
+    const x = p[b] - p[a], y = p[b + 1] - p[a + 1], z = p[b + 2] - p[a + 2], r = p[c] - p[a], s = p[c + 1] - p[a + 1], w = p[c + 2] - p[a + 2];
+    return Math.hypot(y * w - z * s, z * r - x * w, x * s - y * r) / 2;
+  };
   let surface = 0, layout = 0, weight = 0, sum = 0;
   for(let i = 0; i < t.length; i += 3)
   {
     const a = 3 * t[i], b = 3 * t[i + 1], c = 3 * t[i + 2], d = 2 * t[i], e = 2 * t[i + 1], f = 2 * t[i + 2];
-    const x = p[b] - p[a], y = p[b + 1] - p[a + 1], z = p[b + 2] - p[a + 2], r = p[c] - p[a], s = p[c + 1] - p[a + 1], w = p[c + 2] - p[a + 2];
-    const area = Math.hypot(y * w - z * s, z * r - x * w, x * s - y * r) / 2;
-    const image = Math.abs((q[e] - q[d]) * (q[f + 1] - q[d + 1]) - (q[e + 1] - q[d + 1]) * (q[f] - q[d])) / 2;
+    const area = area_of(p, a, b, c);
+    const image = data.is_sphere ? area_of(q, a, b, c) : Math.abs((q[e] - q[d]) * (q[f + 1] - q[d + 1]) - (q[e + 1] - q[d + 1]) * (q[f] - q[d])) / 2;
     if(Number.isFinite(area) && Number.isFinite(image))
     {
       surface += area;

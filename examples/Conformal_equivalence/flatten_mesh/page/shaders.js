@@ -9,15 +9,15 @@ precision highp sampler2D;
 precision highp usampler2D;
 uniform mat4 projectionMatrix, modelViewMatrix;
 uniform usampler2D triangles, codes; // the numbers of corners; of each face the codes of its two factors, and its hidden edges
-uniform sampler2D places, images;    // (x, y, z, u) and (s, t, weight, 0) of each corner
-uniform bool is_plane, is_projective;
+uniform sampler2D places, images;    // (x, y, z, u), and (s, t, 0, weight) or, on spheres, (x, y, z, 1), of each corner
+uniform bool is_image, is_projective;
 const int width = 4096;              // of the textures
 ivec2 texel(int i) { return ivec2(i % width, i / width); }
 `;
 
 export const fill_vertex_shader = fetch_code + `
 out vec3 place;            // as seen by the camera
-out highp vec3 image;      // homogeneous coordinates in the layout
+out highp vec4 image;      // homogeneous coordinates in the layout or near the sphere
 out vec3 barycentric;
 out float u;
 flat out int face;
@@ -26,15 +26,15 @@ void main()
 {
   int corner = int(texelFetch(triangles, texel(gl_VertexID), 0).r);
   vec4 p = texelFetch(places, texel(corner), 0);
-  vec3 q = texelFetch(images, texel(corner), 0).xyz;
-  float w = is_projective && ! is_plane ? q.z : 1.;
-  image = vec3(q.xy * w, w);
+  vec4 q = texelFetch(images, texel(corner), 0);
+  float w = is_projective && ! is_image ? q.w : 1.;
+  image = vec4(q.xyz * w, w);
   u = p.w;
   face = gl_VertexID / 3;
   code = texelFetch(codes, texel(face), 0);
   int k = gl_VertexID - 3 * face;
   barycentric = vec3(k == 0, k == 1, k == 2);
-  vec4 seen = modelViewMatrix * vec4(is_plane ? vec3(q.xy, 0.) : p.xyz, 1.);
+  vec4 seen = modelViewMatrix * vec4(is_image ? q.xyz : p.xyz, 1.);
   place = seen.xyz;
   gl_Position = projectionMatrix * seen;
 }`;
@@ -59,12 +59,39 @@ vec3 pattern(vec2 q, vec2 dx, vec2 dy)
   return mix(board_light, board_dark, mix(odd, .5, smoothstep(.7, 1.6, blur)));
 }`;
 
+// On spheres: lines of latitude and longitude, some degrees apart, with the poles on the z-axis; the equator and the half circle of longitude 0 are marked.
+// Differences of angles are found from those of points, as longitudes leap by 360 degrees.
+const graticule_code = `
+uniform vec3 sphere_centre;         // of what is drawn
+uniform float sphere_unit, distance_of_spheres, graticule;
+uniform vec3 accent;
+float line(float angle, float step, float pixel, float width)
+{
+  float away = abs(fract(angle / step + .5) - .5) * step;
+  return (1. - smoothstep(width - .5, width + .5, away / max(pixel, 1e-6))) * (1. - smoothstep(.15, .4, pixel / step));
+}
+vec3 graticule_color(vec3 q)
+{
+  vec3 d = q * sphere_unit + sphere_centre;
+  d.xy -= distance_of_spheres * round(d.xy / distance_of_spheres);
+  vec3 dx = dFdx(q) * sphere_unit, dy = dFdy(q) * sphere_unit;
+  float r = max(length(d.xy), 1e-6), square = max(dot(d, d), 1e-12);
+  float latitude = degrees(atan(d.z, r)), longitude = degrees(atan(d.y, d.x));
+  float east = degrees(length(vec2(d.x * dx.y - d.y * dx.x, d.x * dy.y - d.y * dy.x)) / (r * r));
+  vec3 n = vec3(-d.xy * d.z / r, r) / square; // the gradient of the latitude
+  float north = degrees(length(vec2(dot(n, dx), dot(n, dy))));
+  // near the poles, where meridians crowd, only some reach on
+  float step = abs(latitude) > 90. - graticule ? 90. : graticule;
+  vec3 c = mix(board_light, board_dark, .75 * max(line(latitude, graticule, north, .7), line(longitude, step, east, .7)));
+  return mix(c, accent, max(abs(latitude) < 1. ? line(latitude, 180., north, 1.5) : 0., abs(longitude) < 90. ? line(longitude, 180., east, 1.5) : 0.));
+}`;
+
 export const fill_fragment_shader = `
 precision highp float;
 precision highp int;
-` + pattern_code + `
+` + pattern_code + graticule_code + `
 in vec3 place;
-in highp vec3 image;
+in highp vec4 image;
 in vec3 barycentric;
 in float u;
 flat in int face;
@@ -72,7 +99,7 @@ flat in uvec4 code;
 #ifdef IS_SAMPLE
 uniform float footprint;        // of a sample; that of a pixel is found by differences
 #endif
-uniform bool is_plane, is_wire;
+uniform bool is_image, is_sphere, is_wire;
 uniform int mode;               // 0 pattern, 1 u, 2 area factor, 3 quasi-conformal factor
 uniform vec2 area_range, factor_range; // of the codes
 uniform float log_ratio;
@@ -114,9 +141,12 @@ float wire()
 
 void main()
 {
-  vec2 q = image.xy / image.z;
+  vec3 in_layout = image.xyz / image.w;
+  vec2 q = in_layout.xy;
   vec3 c;
-  if(mode == 0)
+  if(mode == 0 && is_sphere)
+    c = graticule_color(in_layout);
+  else if(mode == 0)
     c = pattern(q, PATTERN_DX, PATTERN_DY);
   else
   {
@@ -125,7 +155,7 @@ void main()
     if(v < band.x || v > band.y) c = mix(c, ground, .82);
   }
 #ifndef IS_SAMPLE
-  if(is_plane)
+  if(is_image && ! is_sphere)
   {
     if(! gl_FrontFacing) c = flipped;
   }
@@ -157,7 +187,7 @@ precision highp int;
 in vec2 sample_point;
 uniform float number_of_samples;
 out vec3 place;
-out highp vec3 image;
+out highp vec4 image;
 out vec3 barycentric;
 out float u;
 flat out int face;
@@ -165,7 +195,7 @@ flat out uvec4 code;
 void main()
 {
   place = barycentric = vec3(0.);
-  image = vec3(sample_point, 1.);
+  image = vec4(sample_point, 0., 1.);
   u = 0.;
   face = 0;
   code = uvec4(0u);

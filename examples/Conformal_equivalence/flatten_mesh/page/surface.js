@@ -44,9 +44,11 @@ export function make_textures(data)
     images: texture_of(Float32Array, 4, n, THREE.RGBAFormat, THREE.FloatType, a => {
       for(let i = 0; i < n; ++i)
       {
-        a[4 * i] = layout[2 * i];
-        a[4 * i + 1] = layout[2 * i + 1];
-        a[4 * i + 2] = data.has_weights ? weights[i] : 1;
+        const d = data.is_sphere ? 3 : 2;
+        a[4 * i] = layout[d * i];
+        a[4 * i + 1] = layout[d * i + 1];
+        a[4 * i + 2] = data.is_sphere ? layout[3 * i + 2] : 0;
+        a[4 * i + 3] = data.has_weights ? weights[i] : 1;
       }
     })
   };
@@ -63,6 +65,8 @@ export function make_uniforms(data, textures, log_ratio)
 {
   const uniforms = {
     strips: { value: [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()] }, number_of_strips: { value: 2 },
+    is_sphere: { value: data.is_sphere }, graticule: { value: 10 },
+    sphere_centre: { value: new THREE.Vector3(...data.centre) }, sphere_unit: { value: data.radius }, distance_of_spheres: { value: data.distanceOfSpheres },
     is_projective: { value: data.has_weights }, is_wire: { value: false }, mode: { value: 0 },
     area_range: { value: new THREE.Vector2(...data.areaRange) }, factor_range: { value: new THREE.Vector2(...data.factorRange) },
     log_ratio: { value: log_ratio }, range: { value: new THREE.Vector2(0, 1) }, band: { value: new THREE.Vector2(-1e38, 1e38) },
@@ -70,7 +74,7 @@ export function make_uniforms(data, textures, log_ratio)
   };
   for(const name in textures)
     uniforms[name] = { value: textures[name] };
-  for(const name of ["board_light", "board_dark", "over", "under", "none", "back", "flipped", "ground", "ink"])
+  for(const name of ["board_light", "board_dark", "accent", "over", "under", "none", "back", "flipped", "ground", "ink"])
     uniforms[name] = { value: new THREE.Vector3() };
   return uniforms;
 }
@@ -82,11 +86,11 @@ export function shader_color(text)
   return new THREE.Vector3((x >> 16) / 255, (x >> 8 & 255) / 255, (x & 255) / 255);
 }
 
-function material(uniforms, is_plane, fragmentShader, more)
+function material(uniforms, is_image, fragmentShader, more)
 {
   return new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3, vertexShader: fill_vertex_shader, fragmentShader, side: THREE.DoubleSide,
-    uniforms: { ...uniforms, is_plane: { value: is_plane } }, ...more
+    uniforms: { ...uniforms, is_image: { value: is_image } }, ...more
   });
 }
 
@@ -101,16 +105,16 @@ function mesh(data, its_material)
 }
 
 // Lines lie on the triangles: these are moved away a little.
-export function make_fill(data, uniforms, is_plane)
+export function make_fill(data, uniforms, is_image)
 {
-  return mesh(data, material(uniforms, is_plane, fill_fragment_shader, {
+  return mesh(data, material(uniforms, is_image, fill_fragment_shader, {
     defines: { PATTERN_DX: "dFdx(q)", PATTERN_DY: "dFdy(q)" }, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2
   }));
 }
 
-export function make_pickable(data, uniforms, is_plane)
+export function make_pickable(data, uniforms, is_image)
 {
-  return mesh(data, material(uniforms, is_plane, pick_fragment_shader, { blending: THREE.NoBlending }));
+  return mesh(data, material(uniforms, is_image, pick_fragment_shader, { blending: THREE.NoBlending }));
 }
 
 // A point for each pixel of a row, whose colour is that of a point of the layout; see Instrument.sample_pattern().
@@ -119,7 +123,7 @@ export function make_samples(uniforms)
   const samples = new THREE.Points(new THREE.BufferGeometry(), new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3, vertexShader: sample_vertex_shader, fragmentShader: fill_fragment_shader, blending: THREE.NoBlending,
     defines: { IS_SAMPLE: "", PATTERN_DX: "vec2(footprint, 0.)", PATTERN_DY: "vec2(0., footprint)" },
-    uniforms: { ...uniforms, is_plane: { value: true }, number_of_samples: { value: 1 }, footprint: { value: 0 } }
+    uniforms: { ...uniforms, is_image: { value: true }, number_of_samples: { value: 1 }, footprint: { value: 0 } }
   }));
   samples.frustumCulled = false;
   return samples;

@@ -12,7 +12,7 @@ export function apply_theme(instrument)
 {
   const { uniforms, cone_uniforms, renderer, views, histogram, data } = instrument;
   const color = name => shader_color(variable(name));
-  const values = { board_light: "--board-light", board_dark: "--board-dark", over: "--over", under: "--under", none: "--quiet", back: "--back",
+  const values = { board_light: "--board-light", board_dark: "--board-dark", accent: "--accent", over: "--over", under: "--under", none: "--quiet", back: "--back",
                    flipped: "--flipped", ground: "--stage", ink: "--ink" };
   for(const name in values)
     uniforms[name].value.copy(color(values[name]));

@@ -46,20 +46,27 @@ private:
 // For a person who looks at the standard error stream, or a file that it is written to.
 Progress::Kind kind_of_progress(const std::ostream& err, bool is_quiet);
 
-// From now on an interrupt (Ctrl-C) ends the computation in good order, with nothing written; a second one ends the program at once.
+// From now on an interrupt (Ctrl-C) ends the computation in good order, with nothing written, or ends a search, of which the best so far is taken;
+// a second one ends the program at once.
 void stop_at_interrupt();
+bool was_interrupted();
+
+// Whether the interrupt is still to be heeded; after heed_interrupt() it is not any more: what is left to do is done.
 bool is_interrupted();
+void heed_interrupt();
+bool is_interrupt_heeded();
 
 struct Progress_visitor : CGAL::Conformal_equivalence::Default_visitor
 {
   Progress* progress;
+  CGAL::Conformal_equivalence::Stage stage = CGAL::Conformal_equivalence::Stage::IMPORT;
   double first_residual = 0;
 
   explicit Progress_visitor(Progress& progress) : progress(&progress) {}
 
-  void on_stage(CGAL::Conformal_equivalence::Stage stage);
+  void on_stage(CGAL::Conformal_equivalence::Stage next);
   void on_iteration(std::size_t iteration, double residual);
-  void on_progress(CGAL::Conformal_equivalence::Stage stage, std::size_t number, double measure);
+  void on_progress(CGAL::Conformal_equivalence::Stage next, std::size_t number, double measure);
   bool go_further() { return ! is_interrupted(); }
 };
 

@@ -7,6 +7,7 @@
 #include "Given_surface.h"
 #include "mesh.h"
 #include "options.h"
+#include "Progress.h"
 
 #include <vector>
 
@@ -33,7 +34,7 @@ struct Conditions
   Conditions(const Given_surface& given, Mesh& mesh);
 };
 
-void set_conditions(const Options& options, const Mesh& mesh, const Given_surface& given, Conditions& conditions);
+void set_conditions(const Options& options, const Mesh& mesh, const Given_surface& given, Progress& progress, Conditions& conditions);
 
 } // namespace flattening
 

@@ -10,6 +10,7 @@
 #include "results.h"
 #include "Solver_traits.h"
 
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_options.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
@@ -51,14 +52,14 @@ inline auto flattening_parameters(const Options& options, const Conditions& cond
            .layout_frame(options.unit_square ? CE::Layout_frame::UNIT_SQUARE : CE::Layout_frame::CANONICAL);
 }
 
-// What cones are placed for if nothing is said.
-inline CE::Cone_measure measure_of_bounds(const Options& options)
+// What cones are placed for if nothing is said: as if the parameter were not there.
+inline CE::Cone_measure default_cone_measure(const Options& options)
 {
-  return options.maximum_log_scale_factor > 0 ? CE::Cone_measure::MAXIMUM_U
-       : options.maximum_area_distortion > 0  ? CE::Cone_measure::AREA_DISTORTION
-       : options.maximum_root_mean_square > 0 ? CE::Cone_measure::ROOT_MEAN_SQUARE_U
-       : options.seamless                     ? CE::Cone_measure::ROOT_MEAN_SQUARE_U
-                                              : CE::Cone_measure::MAXIMUM_U;
+  CE::internal::Cone_options bounds;
+  bounds.maximum_u = options.maximum_log_scale_factor;
+  bounds.maximum_area_distortion = options.maximum_area_distortion;
+  bounds.maximum_root_mean_square = options.maximum_root_mean_square;
+  return bounds.measure_of_bounds(options.seamless ? CE::Cone_measure::ROOT_MEAN_SQUARE_U : CE::Cone_measure::MAXIMUM_U);
 }
 
 // The parameters of the search for cones.
@@ -69,7 +70,7 @@ inline auto placement_parameters(const Options& options, const Results& results,
            .maximum_log_scale_factor(options.maximum_log_scale_factor)
            .maximum_area_distortion(options.maximum_area_distortion)
            .maximum_root_mean_square(options.maximum_root_mean_square)
-           .cone_measure(options.cone_measure ? *options.cone_measure : measure_of_bounds(options))
+           .cone_measure(options.cone_measure ? *options.cone_measure : default_cone_measure(options))
            .angle_quantum(options.quanta_of_turn == 0 ? 0. : 2 * CGAL_PI / options.quanta_of_turn);
 }
 

@@ -29,6 +29,9 @@ Report flatten_repaired(const Options& options, const Conditions& conditions, Re
 // Looks for the cones, and makes them conditions: angle sums if these were rounded, u = 0 otherwise.
 Report place_cones(const Options& options, const Conditions& conditions, Results& results, Progress& progress);
 
+// Whether that was interrupted, after cones had been found.
+bool is_best_so_far(const Report& placement);
+
 // A seamless layout, with cones that are given or to be placed.
 Report flatten_seamlessly(const Options& options, const Conditions& conditions, Results& results, Progress& progress);
 

@@ -59,6 +59,8 @@ struct Figures
   std::size_t number_of_crossings = 0, number_of_made_vertices = 0, number_of_made_faces = 0;
   Repair_figures repair;
 
+  bool is_search_stopped = false; // the cones are the best that were found until then
+
   std::vector<std::string> notices; // what is said beside the figures
 
   double reading_seconds = 0, placing_seconds = 0, verifying_seconds = 0, writing_seconds = 0;

@@ -8,7 +8,8 @@
 
 #include <iosfwd>
 
-// The whole program: returns its exit status, 0 (done), 1 (an input failed, and nothing is written of it) or 2 (wrong usage).
+// The whole program: returns its exit status, 0 (done), 1 (an input failed, and nothing is written of it) 2 (wrong usage), or 3 (interrupted: what is
+// written is the best that a search had found by then).
 int flatten_mesh(int argc, const char* const argv[], std::ostream& out, std::ostream& err);
 
 #endif // FLATTEN_MESH_FLATTEN_MESH_H

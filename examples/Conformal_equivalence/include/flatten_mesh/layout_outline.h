@@ -1,16 +1,42 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Where a layout ends: at the border of the mesh, and at the two sides of each seam.
+// Where a layout lies, and where it ends: at the border of the mesh, and at the two sides of each seam.
 
 #ifndef FLATTEN_MESH_LAYOUT_OUTLINE_H
 #define FLATTEN_MESH_LAYOUT_OUTLINE_H
 
+#include "color_scale.h"
+
 #include <CGAL/Conformal_equivalence/internal/IO/corner_values.h>
+
+#include <cmath>
 
 namespace flattening {
 
 using CGAL::Conformal_equivalence::internal::corner_value;
+
+// The rectangle that a layout lies in; empty if it has no finite points.
+struct Layout_box
+{
+  Finite_range x, y;
+};
+
+template <typename TriangleMesh, typename HalfedgeUVMap>
+Layout_box layout_box(const TriangleMesh& tm, const HalfedgeUVMap& uv)
+{
+  Layout_box box;
+  for(auto h : halfedges(tm))
+    if(! is_border(h, tm))
+    {
+      const auto p = corner_value(uv, h);
+      if(! std::isfinite(p[0]) || ! std::isfinite(p[1]))
+        continue;
+      box.x.insert(p[0]);
+      box.y.insert(p[1]);
+    }
+  return box;
+}
 
 // Edges at which the layout ends: borders, and edges whose two sides lie apart.
 // To be asked of a halfedge that has a face.

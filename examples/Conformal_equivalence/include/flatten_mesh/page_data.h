@@ -19,6 +19,8 @@
 #include <CGAL/number_utils.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <boost/graph/graph_traits.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -55,7 +57,7 @@ public:
   }
 };
 
-// A corner is a distinct value of the layout at a vertex, as in the files written.
+// A corner is a distinct value of the layout at a vertex, as in the files written. On spheres there are no seams, and each vertex is one corner.
 class Page_data
 {
   typedef CGAL::Simple_cartesian<double> Kernel;
@@ -68,11 +70,10 @@ public:
     std::vector<std::uint32_t> corners;
   };
 
-  // By corner. Both the surface and the layout are moved and scaled, so that they just fit into [-1, 1].
+  // By corner. Both the surface and the layout are moved and scaled, so that they just fit into [-1, 1]. The layout has three coordinates on spheres.
   std::vector<float> points, layout, u;
   std::vector<float> weights; // for projective interpolation; empty if that is linear interpolation
-  std::array<double, 2> layout_centre = {{0, 0}};
-  std::array<double, 3> surface_centre = {{0, 0, 0}};
+  std::array<double, 3> layout_centre = {{0, 0, 0}}, surface_centre = {{0, 0, 0}};
   double layout_radius = 1, surface_radius = 1;
 
   // By triangle. The area factor is that of the scaled ones.
@@ -88,21 +89,23 @@ public:
 
   template <typename TriangleMesh, typename HalfedgeUVMap, typename VertexScalarMap, typename VertexPointMap, typename WeightMap>
   Page_data(const TriangleMesh& tm, const HalfedgeUVMap& uv, const VertexScalarMap& log_scale_factors, const VertexPointMap& vpm,
-            const WeightMap& weight_map, const std::vector<bool>& is_hidden)
+            const WeightMap& weight_map, const std::vector<bool>& is_hidden, const std::vector<std::array<double, 3> >& points_of_spheres = {})
   {
+    const bool is_sphere = ! points_of_spheres.empty();
     const auto number = get(CGAL::dynamic_halfedge_property_t<std::size_t>(), tm);
-    const auto corners = CGAL::Conformal_equivalence::internal::number_corner_values(tm, uv, number);
-    std::vector<std::array<double, 3> > places;
-    std::vector<std::array<double, 2> > images;
+    std::vector<std::array<double, 3> > places, images;
+    const auto corners = is_sphere ? number_vertices(tm, number, points_of_spheres, images)
+                                   : CGAL::Conformal_equivalence::internal::number_corner_values(tm, uv, number);
     for(auto h : corners)
     {
       const auto& p = get(vpm, target(h, tm));
       places.push_back({{ CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()) }});
-      images.push_back(corner_value(uv, h));
+      if(! is_sphere)
+        images.push_back(in_space(corner_value(uv, h)));
       u.push_back(static_cast<float>(CGAL::to_double(get(log_scale_factors, target(h, tm)))));
     }
-    points = fit(places, surface_centre, surface_radius);
-    layout = fit(images, layout_centre, layout_radius);
+    points = fit(places, 3, surface_centre, surface_radius);
+    layout = fit(images, is_sphere ? 3 : 2, layout_centre, layout_radius);
     for(auto f : faces(tm))
     {
       std::array<std::size_t, 3> corner;
@@ -117,15 +120,39 @@ public:
       add_weights(tm, corners, weight_map);
     if(std::find(is_hidden.begin(), is_hidden.end(), true) != is_hidden.end())
       hide_edges(tm, is_hidden);
-    add_lines(tm, uv, number);
+    if(! is_sphere)
+      add_lines(tm, uv, number);
   }
 
 private:
-  template <std::size_t N>
-  static std::vector<float> fit(std::vector<std::array<double, N> >& values, std::array<double, N>& centre, double& radius)
+  static std::array<double, 3> in_space(const std::array<double, 2>& p) { return {{ p[0], p[1], 0 }}; }
+
+  // A halfedge to each vertex that has a face, and its image.
+  template <typename TriangleMesh, typename HalfedgeNumberMap>
+  static std::vector<typename boost::graph_traits<TriangleMesh>::halfedge_descriptor>
+  number_vertices(const TriangleMesh& tm, const HalfedgeNumberMap& number, const std::vector<std::array<double, 3> >& points_of_spheres,
+                  std::vector<std::array<double, 3> >& images)
+  {
+    std::vector<typename boost::graph_traits<TriangleMesh>::halfedge_descriptor> corners;
+    std::size_t i = 0;
+    for(auto v : vertices(tm))
+    {
+      const std::array<double, 3>& image = points_of_spheres[i++];
+      if(halfedge(v, tm) == boost::graph_traits<TriangleMesh>::null_halfedge())
+        continue;
+      for(auto h : CGAL::halfedges_around_target(v, tm))
+        put(number, h, corners.size());
+      corners.push_back(halfedge(v, tm));
+      images.push_back(image);
+    }
+    return corners;
+  }
+
+  // The first `dimension` coordinates of each.
+  static std::vector<float> fit(std::vector<std::array<double, 3> >& values, std::size_t dimension, std::array<double, 3>& centre, double& radius)
   {
     double longest = 0;
-    for(std::size_t k = 0; k < N; ++k)
+    for(std::size_t k = 0; k < dimension; ++k)
     {
       Finite_range range;
       for(const auto& p : values)
@@ -138,7 +165,7 @@ private:
     radius = longest > 0 ? longest : 1;
     std::vector<float> result;
     for(auto& p : values)
-      for(std::size_t k = 0; k < N; ++k)
+      for(std::size_t k = 0; k < dimension; ++k)
       {
         p[k] = (p[k] - centre[k]) / radius;
         result.push_back(static_cast<float>(p[k]));
@@ -146,12 +173,16 @@ private:
     return result;
   }
 
-  static double area_ratio(const std::vector<std::array<double, 3> >& places, const std::vector<std::array<double, 2> >& images,
+  static double area_ratio(const std::vector<std::array<double, 3> >& places, const std::vector<std::array<double, 3> >& images,
                            const std::array<std::size_t, 3>& corner)
   {
-    const auto place = [&](std::size_t k) { const auto& p = places[corner[k]]; return Kernel::Point_3(p[0], p[1], p[2]); };
-    const auto image = [&](std::size_t k) { const auto& q = images[corner[k]]; return Kernel::Point_2(q[0], q[1]); };
-    return std::abs(CGAL::area(image(0), image(1), image(2))) / std::sqrt(CGAL::squared_area(place(0), place(1), place(2)));
+    const auto area = [&](const std::vector<std::array<double, 3> >& values)
+    {
+      const auto point = [&](std::size_t k) { const auto& p = values[corner[k]]; return Kernel::Point_3(p[0], p[1], p[2]); };
+      const Kernel::Vector_3 n = CGAL::cross_product(point(1) - point(0), point(2) - point(0));
+      return std::hypot(n.x(), n.y(), n.z()) / 2; // not by its square, which underflows before it does
+    };
+    return area(images) / area(places);
   }
 
   // Of projective interpolation only the ratios of weights in a triangle matter.

@@ -75,6 +75,7 @@ public:
   Refinement refinement;  // if edges were flipped
   Repair_figures repair;
   double placing_seconds = 0; // of --cones auto
+  bool is_search_stopped = false; // by an interrupt: the cones are the best by then
   std::vector<Mapped_component> components; // if there are several, and each was mapped by itself
 
   explicit Results(Mesh& mesh) : given(mesh), made(made_mesh_) {}

@@ -16,6 +16,9 @@ namespace flattening {
 // have too many digits, places on the seam are rounded again.
 void place_tilings_side_by_side(const Components& components, Results& results, Report& report);
 
+// Between the centres of spheres, or disks, of which each is of one component; they have few digits.
+const double distance_of_centres = 2.25;
+
 // Spheres and disks: each gets a centre. Images are rounded to what is left of them in what is written, point + centre.
 void place_images_side_by_side(Target target, Results& results);
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// One page to judge a layout by: the surface in space and the layout beside it, linked, with a pattern carried over, the logarithmic
+// One page to judge a map by: the surface in space and its layout, or the sphere, beside it, linked, with a pattern carried over, the logarithmic
 // scale factors (section 2 of the paper), area and quasi-conformal factors (section 7), seams (section 3.3), cones (section 5) and
 // figures. The page asks for nothing from anywhere; what it does is in the folder flatten_mesh/page.
 
@@ -45,6 +45,10 @@ struct HTML_options
   std::vector<bool> hidden_edges;
   // Circles that are drawn in the layout, each by its centre and its radius.
   std::vector<std::array<double, 3> > circles;
+  // Instead of a layout, by position in vertices(tm): points of unit spheres, whose centres are (i d, j d, 0) with whole numbers i, j. The layout
+  // given then has the triangles between the points, each laid out by itself. Empty: there is a layout.
+  std::vector<std::array<double, 3> > points_of_spheres;
+  double distance_of_spheres = 0; // d
   // By position in faces(tm) and vertices(tm): the numbers that they are called by. Empty: their positions.
   std::vector<std::uint32_t> face_numbers, vertex_numbers;
 };
@@ -91,6 +95,7 @@ inline void write_page_numbers(Text_buffer& out, const Page_data& data, const HT
   json.name("symmetry").number(options.symmetry);
   json.name("mode").text(options.mode);
   json.name("centre").numbers(data.layout_centre);
+  json.name("distanceOfSpheres").number(options.points_of_spheres.empty() ? 0 : options.distance_of_spheres); // 0: there are none
   json.name("radius").number(data.layout_radius);
   json.name("surfaceCentre").numbers(data.surface_centre);
   json.name("surfaceRadius").number(data.surface_radius);
@@ -165,7 +170,7 @@ bool write_HTML(std::ostream& out, const TriangleMesh& tm, HalfedgeUVMap uv, Ver
   const auto vpm = choose_parameter(get_parameter(np, CGAL::internal_np::vertex_point),
                                     CGAL::get_const_property_map(CGAL::vertex_point, tm));
   const auto weights = get_parameter(np, CGAL::internal_np::conformal_weight);
-  const Page_data data(tm, uv, u, vpm, weights, options.hidden_edges);
+  const Page_data data(tm, uv, u, vpm, weights, options.hidden_edges, options.points_of_spheres);
   {
     Text_buffer buffer(out);
     for(const std::string_view piece : page_template())

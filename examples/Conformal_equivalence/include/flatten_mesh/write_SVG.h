@@ -108,21 +108,14 @@ private:
 
   SVG_frame frame() const
   {
-    Finite_range x, y;
-    for(face_descriptor f : faces(tm_))
-      for(const Point& p : corners(f))
-        if(is_finite(p))
-        {
-          x.insert(p[0]);
-          y.insert(p[1]);
-        }
+    Layout_box box = layout_box(tm_, uv_);
     for(const std::array<double, 3>& c : options_.circles)
       for(const double sign : {-1., 1.})
       {
-        x.insert(c[0] + sign * c[2]);
-        y.insert(c[1] + sign * c[2]);
+        box.x.insert(c[0] + sign * c[2]);
+        box.y.insert(c[1] + sign * c[2]);
       }
-    return SVG_frame(x, y, options_.size);
+    return SVG_frame(box.x, box.y, options_.size);
   }
 
   std::array<Point, 3> corners(face_descriptor f) const

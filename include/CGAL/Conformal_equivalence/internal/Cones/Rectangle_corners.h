@@ -15,6 +15,7 @@
 #include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
 #include <CGAL/Conformal_equivalence/discrete_metric.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
@@ -35,6 +36,15 @@ namespace internal {
 struct Rectangle_corners : public Outcome
 {
   std::array<std::uint32_t, 4> corners{};     // in their order along the border
+};
+
+// Asks whether to go on, and tells nothing: of what is only a part of a search.
+struct Asking_visitor : public Default_visitor
+{
+  Any_visitor visitor;
+
+  explicit Asking_visitor(const Any_visitor& visitor) : visitor(visitor) {}
+  bool go_further() const { return visitor.go_further(); }
 };
 
 typedef std::array<std::uint32_t, 4> Corner_choice; // positions among the candidates, increasing
@@ -116,8 +126,8 @@ class Rectangle_corner_selection
 
 public:
   // `border` are the vertices of the border of the disk `t`, in order; `retriangulation` is that of the map for which the corners are
-  Rectangle_corner_selection(const Triangulation& t, const std::vector<Index>& border, Retriangulation retriangulation)
-    : t_(t), border_(border), may_flip_(retriangulation != Retriangulation::NEVER), energy_(t, true), solver_(t)
+  Rectangle_corner_selection(const Triangulation& t, const std::vector<Index>& border, Retriangulation retriangulation, const Any_visitor& visitor)
+    : t_(t), border_(border), may_flip_(retriangulation != Retriangulation::NEVER), visitor_(visitor), energy_(t, true), solver_(t)
   {
     energy_.evaluate(Vertex_vector(t.number_of_vertices(), 0.));
   }
@@ -142,9 +152,10 @@ public:
       result.vertices = forced;
       return result;
     }
+    visitor_.on_stage(Stage::CORNERS);
     find_candidates();
     const Choice best = best_choice();
-    result.status = Status::OK;
+    result.status = is_stopped_ ? Status::STOPPED_BY_VISITOR : Status::OK;
     for(int k = 0; k < 4; ++k)
       result.corners[k] = border_[candidates_[best[k]]];
     return result;
@@ -188,6 +199,7 @@ private:
     result.number_of_iterations = maximum_number_of_iterations_;
     result.gradient_tolerance = gradient_tolerance_;
     result.is_estimate = true;
+    result.visitor = Any_visitor::of(Asking_visitor(visitor_));
     return result;
   }
 
@@ -308,20 +320,27 @@ private:
     return result;
   }
 
+  // Metrics are what takes long.
   Metric solve(const Choice& c)
   {
+    is_stopped_ = is_stopped_ || !visitor_.go_further();
+    if(is_stopped_)
+      return Metric();
     Conformal_conditions<double> conditions(t_);
     for(Index v : border_)
       conditions.prescribe_angle_sum(v, Exact_angle<double>::pi_times(1));
     for(Index a : c)
       conditions.prescribe_angle_sum(border_[candidates_[a]], Exact_angle<double>::pi_times(1, 2));
-    return solver_.solve(conditions, quickly());
+    const Metric result = solver_.solve(conditions, quickly());
+    is_stopped_ = result.status == Status::STOPPED_BY_VISITOR;
+    visitor_.on_progress(Stage::CORNERS, ++number_of_solves_, energy(result));
+    return result;
   }
 
   // Dirichlet energy of the u of a metric; infinite if there is none.
   double energy(const Metric& metric) const
   {
-    if(!metric)
+    if(!metric || metric.log_scale_factors.empty())
       return std::numeric_limits<double>::infinity();
     return dirichlet_energy(t_, metric.log_scale_factors);
   }
@@ -334,7 +353,7 @@ private:
     Metric metric = solve(best);
     double least = energy(metric);
     std::set<Choice> known = {best};
-    for(Effort left = effort(); left.trials > 0 && improve(named, known, left, best, metric, least); )
+    for(Effort left = effort(); !is_stopped_ && left.trials > 0 && improve(named, known, left, best, metric, least); )
       continue;
     return best;
   }
@@ -350,7 +369,7 @@ private:
       int trials_of_model = left.trials_of_model;
       for(const auto& candidate : named)
       {
-        if(left.trials == 0 || trials_of_model == 0 || candidate.first >= most)
+        if(is_stopped_ || left.trials == 0 || trials_of_model == 0 || candidate.first >= most)
           return false;
         if(number_of_exchanged(best, candidate.second) > most_exchanged || !known.insert(candidate.second).second)
           continue;
@@ -384,13 +403,17 @@ private:
   const std::vector<Index>& border_;
   const bool may_flip_;
   bool is_any_free_ = false; // although there are more vertices with a single triangle than corners
+  const Any_visitor visitor_;
+  bool is_stopped_ = false;
+  std::size_t number_of_solves_ = 0;
   std::vector<Index> candidates_;
   Conformal_energy<double> energy_; // of the surface, at u = 0
   Conformal_metric_solver<double> solver_;
 };
 
 // `first` is a halfedge on the border of the disk `t`.
-inline Rectangle_corners select_rectangle_corners(const Intrinsic_triangulation<double>& t, std::uint32_t first, Retriangulation retriangulation)
+inline Rectangle_corners select_rectangle_corners(const Intrinsic_triangulation<double>& t, std::uint32_t first, Retriangulation retriangulation,
+                                                  const Any_visitor& visitor)
 {
   std::vector<std::uint32_t> border;
   std::uint32_t h = first;
@@ -400,7 +423,7 @@ inline Rectangle_corners select_rectangle_corners(const Intrinsic_triangulation<
     h = t.next_on_border(h);
   }
   while(h != first);
-  return Rectangle_corner_selection(t, border, retriangulation)();
+  return Rectangle_corner_selection(t, border, retriangulation, visitor)();
 }
 
 } // namespace internal

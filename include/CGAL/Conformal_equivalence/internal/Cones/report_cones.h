@@ -31,6 +31,13 @@ void report_rounding(const Imported_mesh<TriangleMesh, double>& mesh, const Cone
     report.flattened_cones.push_back(mesh.vertex(v));
 }
 
+// Whether there are cones, with their metric: those asked for, or the best that were found.
+inline bool has_cones(const Cone_placement<double>& placement)
+{
+  return bool(placement) || placement.status == Status::BOUND_NOT_MET
+      || (placement.status == Status::STOPPED_BY_VISITOR && is_success(placement.metric.status));
+}
+
 // What became of a placement: status, elements at fault, and the cones, if there are any. `report` is that of the import.
 template <typename TriangleMesh>
 void report_cones(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_placement<double>& placement, Flattening_report<TriangleMesh>& report)
@@ -41,7 +48,7 @@ void report_cones(const Imported_mesh<TriangleMesh, double>& mesh, const Cone_pl
   report.amount = placement.amount;
   if(!metric.is_retriangulated())
     name_elements(mesh, placement.vertices, {}, placement.faces, report);
-  if(!bool(report) && report.status != Status::BOUND_NOT_MET)
+  if(!has_cones(placement))
     return;
   for(std::size_t i = 0; i < placement.cones.size(); ++i)
   {

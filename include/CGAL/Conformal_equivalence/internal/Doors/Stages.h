@@ -29,7 +29,9 @@ inline double& seconds_of_stage(Stage stage, Statistics::Seconds& seconds)
     case Stage::CUT:    return seconds.cut;
     case Stage::LAYOUT: return seconds.layout;
     case Stage::VERIFY:
-    case Stage::PLACE:  break;
+    case Stage::PLACE:
+    case Stage::CORNERS:
+    case Stage::FLIP:   break;
   }
   return seconds.verify;
 }

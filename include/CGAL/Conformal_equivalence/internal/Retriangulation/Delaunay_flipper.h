@@ -30,13 +30,16 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_DELAUNAY_FLIPPER_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Length_history.h>
+#include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/flipped_length.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/options.h>
 
 #include <CGAL/assertions.h>
 
@@ -99,13 +102,19 @@ public:
   /// \param s factors `e^{u/2}` by vertex; none: all are 1
   /// \param rule of the new lengths. Euclidean ones are those of the triangles without factors: \pre all factors are 1
   /// \param on_flip `on_flip(e)` is called right before the edge `e` is flipped
-  /// \return `false` if the flip budget was exhausted: then `unfinished_edges()` are those to be flipped next
+  /// \param visitor is told how far it is, and may stop it, where it takes long
+  /// \return `false` if the flip budget was exhausted, or the visitor stopped it: then `unfinished_edges()` are those to be flipped next
   template <typename Scale, typename OnFlip>
-  bool flip_to_delaunay(const std::vector<Scale>& s, std::vector<Index> candidates, Flip_rule rule, OnFlip on_flip)
+  bool flip_to_delaunay(const std::vector<Scale>& s, std::vector<Index> candidates, Flip_rule rule, OnFlip on_flip,
+                        const Any_visitor& visitor = Any_visitor())
   {
     CGAL_precondition(s.empty() || s.size() == t_.number_of_vertices());
     candidates_.clear();
     unfinished_.clear();
+    const Stopwatch stopwatch;
+    double next_question = is_stopped_ ? 0 : seconds_between_questions_;
+    is_stopped_ = false;
+    std::size_t looks = 0;
     for(std::size_t n = candidates.size(); n > 0; --n) // the first comes first
       add_candidate(candidates[n - 1]);
     for(std::size_t flips = 0; !candidates_.empty(); )
@@ -113,6 +122,17 @@ public:
       const Index e = candidates_.back();
       candidates_.pop_back();
       is_candidate_[e] = 0;
+      if(looks++ % looks_between_questions_ == 0 && stopwatch.seconds() >= next_question && !is_stopped_)
+      {
+        visitor.on_progress(Stage::FLIP, flips, double(candidates_.size() + 1));
+        is_stopped_ = !visitor.go_further();
+        next_question = stopwatch.seconds() + seconds_between_questions_;
+      }
+      if(is_stopped_)
+      {
+        unfinished_.push_back(e);
+        continue;
+      }
       if(!is_to_be_flipped(e, s))
         continue;
       if(flips == flip_budget_)
@@ -137,6 +157,7 @@ public:
   }
 
   const std::vector<Index>& unfinished_edges() const { return unfinished_; }
+  bool is_stopped() const { return is_stopped_; } // by the visitor, in the last call
   const Delaunay_flip_counts& counts() const { return counts_; }
 
   /// the bound of the relative error of the length of `e`: 0 if it is the one given
@@ -167,6 +188,10 @@ public:
   }
 
 private:
+  // A look takes a microsecond as a rule, and a hundredth of a second if it takes hundreds of digits: so a visitor is asked every second at least.
+  static constexpr std::size_t looks_between_questions_ = 64;
+  static constexpr double seconds_between_questions_ = 0.25;
+
   enum class State { DELAUNAY, WITHIN_BOUND, NOT_DELAUNAY };
 
   void add_candidate(Index e)
@@ -252,6 +277,7 @@ private:
   std::vector<char> is_candidate_; // by edge
   std::vector<Index> unfinished_;
   std::size_t flip_budget_;
+  bool is_stopped_ = false;
   Delaunay_flip_counts counts_;
 };
 
@@ -259,17 +285,20 @@ private:
 /// the rounding of their lengths: then they count as degenerate.
 /// \param broken_faces receives the faces that violate it by more
 /// \param on_flip `on_flip(e)` is called right before the edge `e` is flipped
-/// \return `false`, and does nothing, if there are any of these
+/// \param visitor is told how far it is, and may stop it, where it takes long
+/// \return `false` if there are any of these, which nothing is done about, or if the visitor stopped it
 template <typename NT, typename OnFlip>
-bool make_intrinsic_delaunay(Intrinsic_triangulation<NT>& t, std::vector<std::uint32_t>& broken_faces, OnFlip on_flip)
+bool make_intrinsic_delaunay(Intrinsic_triangulation<NT>& t, std::vector<std::uint32_t>& broken_faces, OnFlip on_flip,
+                             const Any_visitor& visitor = Any_visitor())
 {
   for(std::uint32_t h = 0; h < t.number_of_halfedges(); h += 3)
     if(!is_triangle_up_to_rounding(t.halfedge_length(h), t.halfedge_length(h + 1), t.halfedge_length(h + 2)))
       broken_faces.push_back(h / 3);
   if(!broken_faces.empty())
     return false;
-  Delaunay_flipper<NT>(t).flip_to_delaunay(std::vector<double>(), all_edges(t), Flip_rule::EUCLIDEAN, on_flip);
-  return true;
+  Delaunay_flipper<NT> flipper(t);
+  flipper.flip_to_delaunay(std::vector<double>(), all_edges(t), Flip_rule::EUCLIDEAN, on_flip, visitor);
+  return !flipper.is_stopped();
 }
 
 } // namespace internal

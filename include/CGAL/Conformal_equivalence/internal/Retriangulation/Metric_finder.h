@@ -261,6 +261,7 @@ private:
       return;
     const double seconds = stopwatch.seconds();
     Flipping_energy<NT> energy(result.triangulation, observer);
+    energy.ideal().set_visitor(options.visitor);
     minimize(energy, conditions, options, may_be_doubled(options), result);
     tell_about_flips(energy.ideal(), seconds, options, result);
   }
@@ -283,6 +284,7 @@ private:
       return;
     const double seconds = stopwatch.seconds();
     Folded_energy<NT> energy(result.triangulation, folded, observer);
+    energy.ideal().set_visitor(options.visitor);
     minimize(energy, conditions, options, false, result);
     unfold(folded, energy, conditions, options.gradient_tolerance, result);
     tell_about_flips(energy.ideal(), seconds, options, result);
@@ -301,7 +303,12 @@ private:
     {
       observer.before_flip(result.triangulation, e);
       flipped.push_back(e);
-    });
+    }, options.visitor);
+    if(!is_possible && result.faces.empty())
+    {
+      result.status = Status::STOPPED_BY_VISITOR;
+      return false;
+    }
     if(!is_possible)
     {
       // those of the surface come before their images

@@ -11,6 +11,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_IDEAL_DELAUNAY_ENERGY_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Fixed_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
@@ -56,6 +57,9 @@ public:
   Ideal_delaunay_energy(Triangulation& t, Flip_observer<Length>& observer)
     : Base(t, true), t_(t), given_(t), flipper_(std::make_unique<Delaunay_flipper<Length> >(t)), observer_(observer)
   {}
+
+  // It may stop the flips of an evaluation, whose numbers are then those of a triangulation on the way: whoever set it has to ask it as well.
+  void set_visitor(const Any_visitor& visitor) { visitor_ = visitor; }
 
   // what was decided, and how, and whether the triangulation is Delaunay
   Delaunay_flipper<Length>& flipper() { return *flipper_; }
@@ -168,7 +172,7 @@ private:
     for(int round = 0; is_finite && round < 100; ++round)
     {
       std::vector<Index> candidates = suspects();
-      if(candidates.empty() || !flip_here(std::move(candidates)))
+      if(candidates.empty() || !flip_here(std::move(candidates), visitor_))
         break;
       is_finite = Base::evaluate(u);
     }
@@ -190,21 +194,22 @@ private:
   }
 
   // At the factors of now.
-  bool flip_here(std::vector<Index> candidates)
+  bool flip_here(std::vector<Index> candidates, const Any_visitor& visitor = Any_visitor())
   {
-    return this->ranges_far() ? flip(this->scales_with_exponents(), std::move(candidates)) : flip(this->scales(), std::move(candidates));
+    return this->ranges_far() ? flip(this->scales_with_exponents(), std::move(candidates), visitor)
+                              : flip(this->scales(), std::move(candidates), visitor);
   }
 
   // Returns whether anything was flipped.
   template <typename Scale>
-  bool flip(const std::vector<Scale>& s, std::vector<Index> candidates)
+  bool flip(const std::vector<Scale>& s, std::vector<Index> candidates, const Any_visitor& visitor = Any_visitor())
   {
     std::vector<Index> flipped;
     flipper_->flip_to_delaunay(s, std::move(candidates), Flip_rule::PTOLEMY, [&](Index e)
     {
       observer_.before_flip(t_, e);
       flipped.push_back(e);
-    });
+    }, visitor);
     for(Index e : flipped)
     {
       this->update_length(e);
@@ -230,6 +235,7 @@ private:
   const Triangulation given_;
   std::unique_ptr<Delaunay_flipper<Length> > flipper_;
   Flip_observer<Length>& observer_;
+  Any_visitor visitor_;
   double seconds_ = 0;
   std::size_t number_of_probes_ = 0;
   bool is_worn_ = false; // some length is known less well than to rounding
