@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Divides a graph by separators (A. George, "Nested dissection of a regular finite element mesh", 1973). As for few parts it need not be known
-// vertex by vertex where they meet, that is found on clusters of some ten vertices, of which there are few, and then smoothed.
+// vertex by vertex where they meet, that is found on clusters of a dozen vertices, of which there are few, and then smoothed.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NESTED_DISSECTION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NESTED_DISSECTION_H
@@ -81,7 +81,7 @@ private:
     for(const auto& pair : pairs)
     {
       halve(vertices, pair[0]->first, pair[1]->first);
-      const long cut = smooth(vertices);
+      const long cut = weight_of_cut(vertices);
       if(!best.empty() && cut >= least)
         continue;
       least = cut;
@@ -91,6 +91,7 @@ private:
     }
     for(std::size_t i = 0; i < vertices.size(); ++i)
       side_[vertices[i]] = best[i];
+    smooth(vertices);
   }
 
   typedef std::pair<std::vector<int>, int> Distances; // of `vertices` from one of them, and which one is the farthest
@@ -152,11 +153,30 @@ private:
     }
   }
 
-  // Moves vertices to the side to which more of their edges lead, as far as the sides remain about equal. Returns the weight of the edges cut.
-  long smooth(const std::vector<int>& vertices)
+  // What the edges of v to either side weigh.
+  std::pair<long, long> edges_to_sides(int v) const
   {
-    const int set = set_[vertices.front()], most_sweeps = 10;
-    long weight[2] = {0, 0}, cut = 0;
+    std::pair<long, long> result(0, 0);
+    for(int k = graph_.first[v]; k < graph_.first[v + 1]; ++k)
+      if(set_[graph_.neighbor[k]] == set_[v])
+        (side_[graph_.neighbor[k]] == 0 ? result.first : result.second) += graph_.edge_weight[k];
+    return result;
+  }
+
+  long weight_of_cut(const std::vector<int>& vertices) const
+  {
+    long result = 0;
+    for(const int v : vertices)
+      if(side_[v] == 0)
+        result += edges_to_sides(v).second;
+    return result;
+  }
+
+  // Moves vertices to the side to which more of their edges lead, as far as the sides remain about equal.
+  void smooth(const std::vector<int>& vertices)
+  {
+    const int most_sweeps = 10;
+    long weight[2] = {0, 0};
     for(const int v : vertices)
       weight[int(side_[v])] += graph_.vertex_weight[v];
     const long most = (weight[0] + weight[1]) / 50 * 26; // half, and a twenty-fifth of it
@@ -164,16 +184,12 @@ private:
     for(int sweep = 0; sweep < most_sweeps && is_changed; ++sweep)
     {
       is_changed = false;
-      cut = 0;
       for(const int v : vertices)
       {
-        long edges[2] = {0, 0};
-        for(int k = graph_.first[v]; k < graph_.first[v + 1]; ++k)
-          if(set_[graph_.neighbor[k]] == set)
-            edges[int(side_[graph_.neighbor[k]])] += graph_.edge_weight[k];
+        const std::pair<long, long> edges = edges_to_sides(v);
         const int own = side_[v], other = 1 - own;
-        cut += edges[other];
-        if(edges[other] <= edges[own] || weight[other] + graph_.vertex_weight[v] > most)
+        const long gain = own == 0 ? edges.second - edges.first : edges.first - edges.second;
+        if(gain <= 0 || weight[other] + graph_.vertex_weight[v] > most)
           continue;
         weight[own] -= graph_.vertex_weight[v];
         weight[other] += graph_.vertex_weight[v];
@@ -181,7 +197,6 @@ private:
         is_changed = true;
       }
     }
-    return cut;
   }
 
   const Weighted_graph& graph_;
@@ -230,7 +245,7 @@ private:
   // By breadth-first searches, each of which begins beside an earlier one.
   void grow_clusters()
   {
-    const std::size_t most = 48;
+    const std::size_t most = 12;
     cluster_.assign(first_.size() - 1, none);
     std::vector<int> fringe, members;
     std::size_t next_in_fringe = 0;
