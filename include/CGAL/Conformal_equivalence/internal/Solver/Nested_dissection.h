@@ -314,14 +314,19 @@ private:
     return result;
   }
 
-  // Vertices go to the part in which most of their neighbors are: clusters have ragged borders.
+  // Vertices go to the part in which most of their neighbors are: clusters have ragged borders. What has very many neighbors remains where it is, as
+  // counting takes the square of their number.
   void smooth()
   {
-    for(int sweep = 0; sweep < 3; ++sweep)
+    const int sweeps = 3, very_many = 64;
+    for(int sweep = 0; sweep < sweeps; ++sweep)
       for(int v = 0; v < int(part_.size()); ++v)
       {
+        const int degree = first_[v + 1] - first_[v];
+        if(degree > very_many)
+          continue;
         int best = part_[v], most = count_neighbors_in(v, best);
-        if(most == first_[v + 1] - first_[v])
+        if(most == degree)
           continue;
         for(int k = first_[v]; k < first_[v + 1]; ++k)
         {
