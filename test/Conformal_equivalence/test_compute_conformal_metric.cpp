@@ -772,6 +772,125 @@ BOOST_AUTO_TEST_CASE(groups_of_subtrees)
   BOOST_CHECK(in_top > 0);
 }
 
+// The lower half of a matrix with ones where unknowns are adjacent.
+CEi::Lower_half adjacency(std::size_t n, std::vector<std::pair<Index, Index> > edges)
+{
+  for(std::pair<Index, Index>& edge : edges)
+    edge = std::minmax(Index(edge.first), Index(edge.second));
+  for(Index v = 0; v < n; ++v)
+    edges.emplace_back(v, v);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  CEi::Lower_half result;
+  for(const std::pair<Index, Index>& edge : edges)
+  {
+    while(result.first.size() <= edge.first)
+      result.first.push_back(int(result.row.size()));
+    result.row.push_back(int(edge.second));
+    result.value.push_back(edge.first == edge.second ? 7 : -1);
+  }
+  result.first.push_back(int(result.row.size()));
+  return result;
+}
+
+std::vector<std::pair<Index, Index> > edges_of(const Triangulation& t)
+{
+  std::vector<std::pair<Index, Index> > result;
+  for(Index e = 0; e < t.number_of_edges(); ++e)
+    result.emplace_back(t.origin(t.edge_halfedge(e)), t.target(t.edge_halfedge(e)));
+  return result;
+}
+
+// Every vertex is in one set; vertices of two sets are adjacent only if one set is a separator of the other: above it in the tree.
+BOOST_AUTO_TEST_CASE(separators_separate)
+{
+  std::vector<std::vector<std::pair<Index, Index> > > graphs;
+  std::vector<std::size_t> numbers_of_vertices;
+  const auto add = [&](std::size_t n, const std::vector<std::pair<Index, Index> >& edges)
+  {
+    numbers_of_vertices.push_back(n);
+    graphs.push_back(edges);
+  };
+  for(const testing::Soup& soup : {testing::flat_grid(40), testing::torus(30, 50, 2, .8),
+                                   testing::together({testing::hill(20, .3), testing::flat_grid(15)}, true)})
+  {
+    const Triangulation t = testing::triangulation(soup);
+    add(t.number_of_vertices(), edges_of(t));
+  }
+  const std::size_t surfaces = graphs.size();
+  add(500, {});
+  std::vector<std::pair<Index, Index> > star;
+  for(Index v = 1; v < 500; ++v)
+    star.emplace_back(0, v);
+  add(500, star);
+  for(std::size_t g = 0; g < graphs.size(); ++g)
+    for(const int levels : {1, 2, 4})
+    {
+      const std::size_t n = numbers_of_vertices[g];
+      std::vector<int> first(n + 1, 0), neighbor;
+      std::vector<std::vector<int> > neighbors(n);
+      for(const std::pair<Index, Index>& edge : graphs[g])
+      {
+        neighbors[edge.first].push_back(int(edge.second));
+        neighbors[edge.second].push_back(int(edge.first));
+      }
+      for(std::size_t v = 0; v < n; ++v)
+      {
+        neighbor.insert(neighbor.end(), neighbors[v].begin(), neighbors[v].end());
+        first[v + 1] = int(neighbor.size());
+      }
+      const CEi::Nested_dissection dissection(first, neighbor, levels);
+      const std::vector<std::vector<int> > sets = dissection.sets();
+      BOOST_REQUIRE_EQUAL(sets.size(), (std::size_t(2) << levels) - 1);
+      std::vector<std::size_t> node(n, 0); // of the tree, in which the root is 1
+      std::size_t separating = 0;
+      for(std::size_t s = 0; s < sets.size(); ++s)
+        for(const int v : sets[s])
+        {
+          BOOST_CHECK_EQUAL(node[v], 0);
+          node[v] = sets.size() - s;
+          separating += s >= dissection.number_of_parts() ? 1 : 0;
+        }
+      BOOST_CHECK_EQUAL(std::count(node.begin(), node.end(), std::size_t(0)), 0);
+      BOOST_CHECK_EQUAL(separating, dissection.number_of_separating_vertices());
+      for(const std::pair<Index, Index>& edge : graphs[g])
+      {
+        std::size_t lower = (std::max)(node[edge.first], node[edge.second]);
+        const std::size_t upper = (std::min)(node[edge.first], node[edge.second]);
+        while(lower > upper)
+          lower /= 2;
+        BOOST_CHECK_EQUAL(lower, upper);
+      }
+      if(g < surfaces) // 2^k separators, each not much longer than the side of a square of its part
+        BOOST_CHECK_LE(double(separating), 2 * std::sqrt(double(n)) * (std::pow(2., levels / 2.) - 1) / (std::sqrt(2.) - 1));
+    }
+}
+
+// An order by parts is a permutation, is the same with any number of threads, and makes no worse factor than that of minimum degree alone.
+BOOST_AUTO_TEST_CASE(order_of_large_systems)
+{
+  const Triangulation t = testing::triangulation(testing::flat_grid(190));
+  const CEi::Lower_half a = adjacency(t.number_of_vertices(), edges_of(t));
+  const CEi::Elimination_order order(a), by_two(a, CEi::Concurrency(2));
+  BOOST_CHECK(order.unknowns() == by_two.unknowns());
+  std::vector<int> sorted = order.unknowns();
+  std::sort(sorted.begin(), sorted.end());
+  for(int i = 0; i < int(t.number_of_vertices()); ++i)
+    BOOST_REQUIRE_EQUAL(sorted[i], i);
+  const CEi::Symbolic_factor symbolic(a, order);
+  const double n = double(t.number_of_vertices());
+  BOOST_CHECK_LE(double(symbolic.number_of_values), 31 / 4. * n * std::log2(n)); // of a square grid (A. George, 1973)
+
+  // one vertex that is adjacent to all others: no surface, but a matrix
+  std::vector<std::pair<Index, Index> > star;
+  for(Index v = 1; v < 40000; ++v)
+    star.emplace_back(0, v);
+  sorted = CEi::Elimination_order(adjacency(40000, star)).unknowns();
+  std::sort(sorted.begin(), sorted.end());
+  for(int i = 0; i < 40000; ++i)
+    BOOST_REQUIRE_EQUAL(sorted[i], i);
+}
+
 // Of surfaces large enough that there is something to share.
 BOOST_AUTO_TEST_CASE(results_do_not_depend_on_the_number_of_threads)
 {
@@ -1111,6 +1230,180 @@ BOOST_AUTO_TEST_CASE(degenerate_minimizers_are_named)
     const Metric flipped = CE::compute_conformal_metric(t, Conditions(t));
     BOOST_CHECK(bool(flipped) && flipped.is_retriangulated());
   }
+}
+
+// b A^-1 b, or a negative number if A is not positive definite.
+double inverse_form(Dense_matrix a, std::vector<double> b)
+{
+  double result = 0;
+  for(std::size_t k = 0; k < a.size(); ++k)
+  {
+    if(!(a[k][k] > 0))
+      return -1;
+    for(std::size_t i = k + 1; i < a.size(); ++i)
+      if(a[i][k] != 0)
+      {
+        const double factor = a[i][k] / a[k][k];
+        for(std::size_t j = k + 1; j <= i; ++j)
+          a[i][j] -= factor * a[j][k];
+        b[i] -= factor * b[k];
+      }
+    result += b[k] * b[k] / a[k][k];
+  }
+  return result;
+}
+
+// Whether it can be proved that there is no metric with these conditions on this triangulation: that in the minimizer of the extended energy, of
+// which u is an approximation, some triangle inequality fails. All solutions are minimizers, as the energy is convex, and one at which its Hessian
+// is positive definite is the only one.
+//
+// Where u differs by d from the one given, and differences d_i - d_j are within bounds for which no angle of a triangle changes much, the Hessian
+// of that triangle is at least one half of what it is at u. Let M be the sum of those of such triangles, N = M / 2, and g the gradient at u. If
+// g N^-1 g < rho^2, the minimizer is in the ball d N d <= rho^2, since E increases at its border. There (d_i - d_j)^2 <= 2 rho^2 / c, where c is
+// the sum of 1 / (2 (cot a + cot b)) over these triangles at the edge ij, with their angles a and b at i and j: what is left of their forms
+// when they are least over the third vertex.
+class Certificate
+{
+  const Triangulation& t_;
+  std::vector<std::array<Real, 3> > length_;                   // by face and side
+  std::vector<CEi::Triangle_angles<Real> > angles_;
+  std::vector<char> is_counted_;                               // in M
+  std::vector<int> free_index_;
+  std::vector<double> gradient_, bound_;                       // by free vertex; by edge
+
+  static double cotangent(const CEi::Triangle_angles<Real>& angles, Index k) { return static_cast<double>(angles.cotangent[k % 3]); }
+
+  // Bounds the differences along the edges, if M is positive definite.
+  bool find_bounds()
+  {
+    Dense_matrix m(gradient_.size(), std::vector<double>(gradient_.size(), 0.));
+    std::vector<double> conductance(t_.number_of_edges(), 0.);
+    for(Index h = 0; h < t_.number_of_halfedges(); ++h)
+    {
+      if(!is_counted_[h / 3])
+        continue;
+      const CEi::Triangle_angles<Real>& angles = angles_[h / 3];
+      const double half = cotangent(angles, h % 3) / 2;
+      conductance[t_.edge(h)] += 1 / (2 * (cotangent(angles, h % 3 + 1) + cotangent(angles, h % 3 + 2)));
+      const int i = free_index_[t_.origin(h)], j = free_index_[t_.target(h)];
+      if(i >= 0)
+        m[i][i] += half;
+      if(j >= 0)
+        m[j][j] += half;
+      if(i >= 0 && j >= 0)
+      {
+        m[i][j] -= half;
+        m[j][i] -= half;
+      }
+    }
+    const double form = inverse_form(m, gradient_);
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+      bound_[e] = conductance[e] > 0 ? std::sqrt(2 * 1.01 * 2 * form / conductance[e]) : infinity;
+    return form >= 0;
+  }
+
+  // The cotangents of a triangle change by less than a tenth, and so its form relative to what it was by less than one half: with differences of
+  // at most b, angles change by c b at most, where c > 1 bounds the cotangents, cotangents by (1 + c^2) c b, and the trace of the one form
+  // relative to the other, which are of the same determinant, by 6 (1 + c^2) c^2 b.
+  bool drop_unsafe()
+  {
+    bool is_dropped = false;
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+    {
+      double b = 0, c = 1;
+      for(Index k = 0; k < 3; ++k)
+      {
+        b = (std::max)(b, bound_[t_.edge(3 * f + k)]);
+        c = (std::max)(c, 1.1 * std::abs(cotangent(angles_[f], k)));
+      }
+      if(!is_counted_[f] || 6 * b * c * c * (1 + c * c) < .05)
+        continue;
+      is_counted_[f] = 0;
+      is_dropped = true;
+    }
+    return is_dropped;
+  }
+
+  // Does the face remain broken? Relative to the longest side, another one becomes longer by e^{(d_i - d_j)/2}, where i is the corner opposite to
+  // the longest side, and j the end of that which the other side does not have.
+  bool remains_broken(Index f) const
+  {
+    const std::array<Real, 3>& l = length_[f];
+    const int k = CEi::longest_side(l[0], l[1], l[2]);
+    const double b = (std::max)(bound_[t_.edge(3 * f + (k + 1) % 3)], bound_[t_.edge(3 * f + (k + 2) % 3)]);
+    return static_cast<double>((l[(k + 1) % 3] + l[(k + 2) % 3]) / l[k]) * std::exp(b / 2) < 1 - 1e-14;
+  }
+
+public:
+  Certificate(const Triangulation& t, const Conditions& conditions, const std::vector<double>& u)
+    : t_(t), free_index_(t.number_of_vertices(), -1), bound_(t.number_of_edges(), infinity)
+  {
+    std::vector<Real> gradient;
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      if(!conditions.is_fixed(v) && !t.is_isolated_vertex(v))
+      {
+        free_index_[v] = int(gradient.size());
+        gradient.push_back(conditions.angle_sum(v).radians<Real>());
+      }
+    for(Index f = 0; f < t.number_of_faces(); ++f)
+    {
+      std::array<Real, 3> l;
+      for(Index k = 0; k < 3; ++k)
+        l[k] = t.halfedge_length(3 * f + k) * exp((Real(u[t.origin(3 * f + k)]) + u[t.target(3 * f + k)]) / 2);
+      length_.push_back(l);
+      angles_.push_back(CEi::triangle_angles<Real>(l[0], l[1], l[2]));
+      is_counted_.push_back(angles_.back().is_broken ? 0 : 1);
+      for(Index k = 0; k < 3; ++k)
+        if(free_index_[t.apex(3 * f + k)] >= 0)
+          gradient[free_index_[t.apex(3 * f + k)]] -= angles_.back().angle[k];
+    }
+    for(const Real& x : gradient)
+      gradient_.push_back(static_cast<double>(x));
+  }
+
+  bool proves_that_there_is_none()
+  {
+    do
+      if(!find_bounds())
+        return false;
+    while(drop_unsafe());
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+      if(angles_[f].is_broken && remains_broken(f))
+        return true;
+    return false;
+  }
+};
+
+// Where the solver says that there is a metric on the fixed triangulation, it is one, and no edge is flipped unasked; where it says that there is
+// none, there is a proof.
+BOOST_AUTO_TEST_CASE(there_is_no_metric_where_none_is_found)
+{
+  std::vector<Triangulation> surfaces;
+  for(const double amplitude : {.6, 1.5, 3.})
+    for(unsigned seed = 0; seed < 8; ++seed)
+      surfaces.push_back(testing::triangulation(testing::random_height_field(9, amplitude, seed)));
+  std::size_t number_with = 0, number_without = 0;
+  for(const Triangulation& t : surfaces)
+  {
+    const Conditions conditions(t);
+    const Metric fixed = CE::compute_conformal_metric(t, conditions, params::retriangulation(CE::Retriangulation::NEVER));
+    const Metric metric = CE::compute_conformal_metric(t, conditions);
+    BOOST_CHECK_EQUAL(bool(fixed), !metric.is_retriangulated());
+    if(fixed)
+    {
+      ++number_with;
+      check_solution(fixed, conditions);
+      BOOST_CHECK(CE::is_valid_metric(CE::apply_log_scale_factors(t, fixed.log_scale_factors)));
+      BOOST_CHECK(!Certificate(t, conditions, fixed.log_scale_factors).proves_that_there_is_none());
+      continue;
+    }
+    ++number_without;
+    BOOST_CHECK(fixed.status == Status::DEGENERATE_METRIC);
+    BOOST_REQUIRE_EQUAL(fixed.log_scale_factors.size(), t.number_of_vertices());
+    BOOST_CHECK(Certificate(t, conditions, fixed.log_scale_factors).proves_that_there_is_none());
+  }
+  BOOST_CHECK_GT(number_with, 3);
+  BOOST_CHECK_GT(number_without, 3);
 }
 
 // ---- Appendix E

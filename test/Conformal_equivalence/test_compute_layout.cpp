@@ -504,6 +504,60 @@ BOOST_AUTO_TEST_CASE(pieces_are_turned_as_if_alone)
     BOOST_TEST(std::abs(complex(layout.corner[first + h]) - complex(expected.corner[h]) - offset) <= rounded_layout);
 }
 
+// Triangles are laid out by vectors as they are one by one, whatever their shapes and sizes, up to the error of a few operations on pairs of
+// `double`.
+BOOST_AUTO_TEST_CASE(vectors_lay_out_as_numbers_do)
+{
+  typedef CE::internal::Double_double Wide;
+  typedef CE::internal::Development_front<Wide> Front;
+  const std::vector<double> random = testing::random_numbers(4096, 1, 3);
+  std::size_t next = 0;
+  const auto number = [&]
+  {
+    next = (next + 2) % random.size();
+    return CE::internal::two_sum(1.5 + random[next], 1e-17 * random[next + 1]);
+  };
+  for(const double size : {1., 1e-290, 1e-100, 1e100, 1e290})
+    for(const double flatness : {1., 1e-3, 1e-14, 1e-25, 0.})
+    {
+      Front front;
+      front.position.push_back({Wide(size), Wide(-size)});
+      for(Index i = 0; i < 7; ++i) // less than two whole vectors
+      {
+        const Wide b = number(), c = number();
+        const Wide longest = b + c - flatness * (b < c ? b : c) / 2.;
+        const Wide side[] = {longest, b, c};
+        for(Index k = 0; k < 3; ++k)
+          front.length.push_back(size * side[(i + k) % 3]);
+        front.sides.push_back({0, CE::internal::unit_complex(number())});
+        front.position.push_back({Wide(0), Wide(0)});
+        front.next_sides.insert(front.next_sides.end(), 2, {0, {Wide(0), Wide(0)}});
+        front.steps.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, i, 0, i + 1, 2 * i, 2 * i + 1});
+      }
+      front.steps[3].apex = front.steps[4].beyond_next = front.steps[5].beyond_previous = CE::internal::Development_step::none;
+      Front one_by_one = front;
+      for(const CE::internal::Development_step& step : one_by_one.steps)
+        one_by_one.lay_out(step);
+      CE::internal::lay_out_steps(front);
+      const auto check = [](const Wide& x, const Wide& y, double unit)
+      {
+        BOOST_CHECK_EQUAL(isnan(x), isnan(y));
+        if(!isnan(x))
+          BOOST_CHECK_LE(static_cast<double>(abs(x - y)) / unit, 1e-29);
+      };
+      for(std::size_t i = 0; i < front.position.size(); ++i)
+      {
+        check(front.position[i].re, one_by_one.position[i].re, size);
+        check(front.position[i].im, one_by_one.position[i].im, size);
+      }
+      for(std::size_t i = 0; i < front.next_sides.size(); ++i)
+      {
+        check(front.next_sides[i].direction.re, one_by_one.next_sides[i].direction.re, 1);
+        check(front.next_sides[i].direction.im, one_by_one.next_sides[i].direction.im, 1);
+      }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(nothing_to_lay_out)
 {
   const Triangulation empty;

@@ -54,15 +54,19 @@ public:
   void end_stage()
   {
     seconds_[std::size_t(stage_)] += stopwatch_.seconds();
+    elapsed_seconds_[std::size_t(stage_)] += elapsed_.seconds();
     stopwatch_ = Processor_stopwatch();
+    elapsed_ = Stopwatch();
   }
 
   double operator[](CE::Stage stage) const { return seconds_[std::size_t(stage)]; }
+  double elapsed(CE::Stage stage) const { return elapsed_seconds_[std::size_t(stage)]; }
 
 private:
-  std::array<double, 8> seconds_ = {};
+  std::array<double, 8> seconds_ = {}, elapsed_seconds_ = {};
   CE::Stage stage_ = CE::Stage::IMPORT;
   Processor_stopwatch stopwatch_;
+  Stopwatch elapsed_;
 };
 
 // What one method made of one mesh.
@@ -82,7 +86,7 @@ typedef Mesh::Property_map<halfedge_descriptor, Point_2> UV_map;
 
 // This package, natural border, through `flatten()`.
 template <typename SolverTraits>
-Result flatten_conformally(Mesh& mesh, UV_map uv)
+Result flatten_conformally(Mesh& mesh, UV_map uv, unsigned number_of_threads = 1)
 {
   auto u = mesh.add_property_map<vertex_descriptor, double>("v:u", 0).first;
   Result result;
@@ -90,6 +94,7 @@ Result flatten_conformally(Mesh& mesh, UV_map uv)
   const Processor_stopwatch processor_stopwatch;
   const auto report = CE::flatten(mesh, uv, CGAL::parameters::log_scale_factor_map(u)
                                               .sparse_linear_solver(SolverTraits())
+                                              .number_of_threads(number_of_threads)
                                               .visitor(std::ref(result.stage_seconds)));
   result.stage_seconds.end_stage(); // the last one includes the writing of the maps
   result.seconds = processor_stopwatch.seconds();
@@ -133,11 +138,13 @@ inline bool is_disk(const Mesh& mesh)
   return CE::surface_topology(t, CE::connected_components(t)).is_disk();
 }
 
-// `ours` (the default solver), `ours-simplicial`, `ours-cholmod` (where it was found), `lscm`, `arap`, `dcm`.
+// `ours` (the default solver), `ours-2` (with two threads), `ours-simplicial`, `ours-cholmod` (where it was found), `lscm`, `arap`, `dcm`.
 inline Result run_method(const std::string& method, Mesh& mesh, UV_map uv)
 {
   if(method == "ours")
     return flatten_conformally<CE::Default_solver_traits>(mesh, uv);
+  if(method == "ours-2")
+    return flatten_conformally<CE::Default_solver_traits>(mesh, uv, 2);
   if(method == "ours-simplicial")
     return flatten_conformally<CE::Simplicial_solver_traits>(mesh, uv);
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_CHOLMOD

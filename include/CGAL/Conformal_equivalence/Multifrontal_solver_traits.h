@@ -24,11 +24,12 @@ namespace Conformal_equivalence {
 /// A sparse Cholesky factorization by the multifrontal method, made for the Laplacians of surfaces. Needs no further
 /// library, and starts no threads.
 ///
-/// The matrix is symmetric positive definite; its lower half is read. It is ordered by approximate minimum degree, scaled,
-/// and factorized in single precision, which takes half of the memory and of the time. That factor is what `precondition()`
-/// works with. Where single precision is not enough to tell that the matrix is positive definite, it is factorized in
-/// double. So it is when `linear_solver()` is called, the results of which are as accurate as those of any factorization in
-/// double; and from then on. The last bits of results depend on whether the processor has AVX2.
+/// The matrix is symmetric positive definite; its lower half is read. It is ordered by approximate minimum degree, a large one
+/// part by part after it was divided by separators. It is scaled, and factorized in single precision, which takes half of the
+/// memory and of the time. That factor is what `precondition()` works with. Where single precision is not enough to tell that the
+/// matrix is positive definite, it is factorized in double. So it is when `linear_solver()` is called, the results of which are
+/// as accurate as those of any factorization in double; and from then on. The last bits of results depend on whether the
+/// processor has AVX2.
 ///
 /// \cgalModels{SparseLinearAlgebraWithPatternTraits_d}
 class Multifrontal_solver_traits
@@ -97,7 +98,7 @@ public:
     return apply(B, X, [this](std::vector<double>& b) { return factor_.precondition(b); });
   }
 
-  /// allows so many threads; only one is used where the program does not link `Conformal_equivalence::TBB_support`. Results do not
+  /// allows so many threads, also for the next analysis; only one is used where the program does not link `Conformal_equivalence::TBB_support`. Results do not
   /// depend on their number.
   void set_number_of_threads(unsigned int number_of_threads) { factor_.set_concurrency(internal::Concurrency(number_of_threads)); }
 

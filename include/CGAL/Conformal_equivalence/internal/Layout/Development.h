@@ -15,6 +15,7 @@
 #include <CGAL/Conformal_equivalence/Cut_graph.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
+#include <CGAL/Conformal_equivalence/internal/Layout/Development_steps.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/wedges.h>
 
@@ -22,7 +23,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <queue>
 #include <utility>
 #include <vector>
 
@@ -39,38 +39,42 @@ class Development
 public:
   typedef typename Metric::Wide_number Wide;
   typedef Complex_number<Wide> Complex;
-  typedef std::queue<std::pair<Index, Complex> > Queue; // a halfedge both ends of which are placed, and its direction
 
-  std::vector<Complex> position;   // by wedge
   std::vector<char> is_laid_out;   // by face
 
   Development(const Metric& metric, const Cut_graph& cut, const Wedges& wedges)
-    : position(wedges.number_of_wedges, Complex{Wide(0), Wide(0)}),
-      is_laid_out(metric.triangulation.number_of_faces(), 0),
-      metric_(metric), t_(metric.triangulation), cut_(cut), wedges_(wedges),
+    : is_laid_out(metric.triangulation.number_of_faces(), 0),
+      t_(metric.triangulation), cut_(cut), wedges_(wedges),
       is_placed_(wedges.number_of_wedges, 0)
-  {}
+  {
+    front_.length = wide_lengths(t_, metric.scale_factors);
+    front_.position.assign(wedges.number_of_wedges, Complex{Wide(0), Wide(0)});
+  }
 
-  Wide length(Index h) const { return metric_.wide_scaled_length(h); }
+  const Wide& length(Index h) const { return front_.length[t_.edge(h)]; }
+
+  // By wedge.
+  const std::vector<Complex>& positions() const { return front_.position; }
+  std::vector<Complex> take_positions() { return std::move(front_.position); }
 
   // Lays out everything that is connected with `root`.
   void operator()(Index root)
   {
-    Queue queue;
     const Index h = t_.halfedge(root);
-    const Complex east = {Wide(1), Wide(0)};
-    place(origin_wedge(h), Complex{Wide(0), Wide(0)});
-    place(wedges_.of_corner[h], Complex{metric_.wide_scaled_length(h), Wide(0)});
+    const Complex zero = {Wide(0), Wide(0)}, east = {Wide(1), Wide(0)};
+    place(origin_wedge(h), zero);
+    place(wedges_.of_corner[h], Complex{length(h), Wide(0)});
     is_laid_out[root] = 1;
-    queue.emplace(h, east);
-    while(!queue.empty())
+    front_.sides.assign(1, {h, east});
+    front_.next_sides.clear();
+    if(goes_on_beyond(h))
+      front_.next_sides.push_back({t_.twin(h), -east});
+    while(!front_.sides.empty())
     {
-      const Index g = queue.front().first;
-      const Complex direction = queue.front().second;
-      queue.pop();
-      if(g == h && goes_on_beyond(g))
-        queue.emplace(t_.twin(g), -direction);
-      lay_out_triangle(g, direction, queue);
+      find_steps();
+      lay_out_steps(front_);
+      front_.sides.swap(front_.next_sides);
+      front_.next_sides.clear();
     }
   }
 
@@ -79,47 +83,53 @@ private:
 
   void place(Index wedge, const Complex& z)
   {
-    if(is_placed_[wedge])
-      return;
-    is_placed_[wedge] = 1;
-    position[wedge] = z;
+    if(claim(wedge))
+      front_.position[wedge] = z;
   }
 
-  // Places the apex of the triangle of h, where h lies already, in the given direction, and adds the triangles beyond its other two sides to the
-  // queue. Nothing is computed that is not needed for that: every second apex has been placed before, and many triangles have none beyond.
-  void lay_out_triangle(Index h, const Complex& direction, Queue& queue)
+  // Is the wedge still to be placed? From now on it counts as placed.
+  bool claim(Index wedge) { return !std::exchange(is_placed_[wedge], char(1)); }
+
+  // What the triangles of this front are wanted for. Nothing is computed that is not needed: every second apex has been placed before, and many
+  // triangles have none beyond.
+  void find_steps()
   {
-    const Index next = t_.next(h), previous = t_.previous(h), apex = wedges_.of_corner[next];
-    const bool next_leads_on = goes_on_beyond(next), previous_leads_on = goes_on_beyond(previous), is_new = !is_placed_[apex];
-    if(!next_leads_on && !previous_leads_on && !is_new)
-      return;
-    const Wide length = metric_.wide_scaled_length(previous);
-    const Incircle_form<Wide> triangle(metric_.wide_scaled_length(h), metric_.wide_scaled_length(next), length);
-    if(next_leads_on)
-      queue.emplace(t_.twin(next), direction * conj(rotation(triangle, 2)));
-    if(!previous_leads_on && !is_new)
-      return;
-    const Complex to_apex = direction * rotation(triangle, 1);
-    if(is_new)
-      place(apex, position[origin_wedge(h)] + length * to_apex);
-    if(previous_leads_on)
-      queue.emplace(t_.twin(previous), to_apex);
+    front_.steps.clear();
+    for(Index i = 0; i < front_.sides.size(); ++i)
+    {
+      const Index h = front_.sides[i].halfedge, next = t_.next(h), previous = t_.previous(h), apex = wedges_.of_corner[next];
+      const Index beyond_next = enter_beyond(next), beyond_previous = enter_beyond(previous);
+      const bool is_new = claim(apex);
+      if(is_new || beyond_next != none || beyond_previous != none)
+        front_.steps.push_back({{t_.edge(h), t_.edge(next), t_.edge(previous)}, i, origin_wedge(h), is_new ? apex : none,
+                                beyond_next, beyond_previous});
+    }
+  }
+
+  // Adds what is beyond the side h to the next front, if that is still to be laid out, and returns its number there.
+  Index enter_beyond(Index h)
+  {
+    if(!goes_on_beyond(h))
+      return none;
+    front_.next_sides.push_back({t_.twin(h), Complex()});
+    return Index(front_.next_sides.size() - 1);
   }
 
   // Is the triangle beyond the side h still to be laid out? From now on it counts as laid out.
   bool goes_on_beyond(Index h)
   {
-    if(t_.is_border(h) || cut_[t_.edge(h)] || is_laid_out[t_.face(t_.twin(h))])
+    if(t_.is_border(h) || cut_[t_.edge(h)])
       return false;
-    is_laid_out[t_.face(t_.twin(h))] = 1;
-    return true;
+    return !std::exchange(is_laid_out[t_.face(t_.twin(h))], char(1));
   }
 
-  const Metric& metric_;
+  static constexpr Index none = Development_step::none;
+
   const Intrinsic_triangulation<NT>& t_;
   const Cut_graph& cut_;
   const Wedges& wedges_;
   std::vector<char> is_placed_;
+  Development_front<Wide> front_;
 };
 
 // What a development has found, whether edges were flipped or not.
@@ -144,7 +154,7 @@ Developed_surface<NT> develop(const Intrinsic_triangulation<NT>& t, const std::v
   result.length.reserve(t.number_of_edges());
   for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
     result.length.push_back(static_cast<NT>(development.length(t.edge_halfedge(e))));
-  result.position = std::move(development.position);
+  result.position = development.take_positions();
   result.is_laid_out = std::move(development.is_laid_out);
   return result;
 }

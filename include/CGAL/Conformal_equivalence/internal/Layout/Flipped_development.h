@@ -56,6 +56,8 @@ public:
       vectors_.push_back({unfold(record.path(t_, starts[h])), starts[h].first, starts[h].position});
   }
 
+  std::vector<Complex> take_positions() { return std::move(position); }
+
   // the length of the straight line that the input halfedge becomes
   Wide length(Index h) const { return size(vectors_[h].to_target); }
 

@@ -160,10 +160,11 @@ void move_to_canonical_frame(const Intrinsic_triangulation<NT>& t, const std::ve
                              const Piece& piece, std::vector<Complex_number<Wide> >& position)
 {
   const double unit = power_of_two_near(piece, position); // areas and third moments must not leave the range of double
+  const double inverse = 1 / unit; // a power of two, too
   const auto scaled = [&](const Complex_number<Wide>& z)
   {
     const Double_point p = to_double_point(z);
-    return Double_point{{p[0] / unit, p[1] / unit}};
+    return Double_point{{p[0] * inverse, p[1] * inverse}};
   };
   const auto corner = [&](std::uint32_t h) { return scaled(position[wedge[h]]); };
   const Area_moments m = area_moments(piece.faces, corner);

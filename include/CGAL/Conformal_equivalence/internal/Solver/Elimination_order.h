@@ -1,13 +1,16 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// In which order the unknowns of a sparse symmetric system are eliminated. The order decides how many entries the factor has: here it is that of
-// approximate minimum degree (P. R. Amestoy, T. A. Davis and I. S. Duff, "An approximate minimum degree ordering algorithm", 1996), by Eigen.
-// For the Laplacian of a surface of a hundred thousand vertices METIS's nested dissection saves a third of the factorization, and takes ten
-// times longer to find.
+// In which order the unknowns of a sparse symmetric system are eliminated. The order decides how many entries the factor has, and how much of it
+// can be computed at the same time. Large graphs are divided into parts by separators, which come last; the parts, and graphs that
+// are not large, are ordered by approximate minimum degree (P. R. Amestoy, T. A. Davis and I. S. Duff, "An approximate minimum degree ordering
+// algorithm", 1996), by Eigen.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ELIMINATION_ORDER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_ELIMINATION_ORDER_H
+
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Nested_dissection.h>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
@@ -59,21 +62,95 @@ public:
   // Any order that is given.
   explicit Elimination_order(std::vector<int> unknowns) : unknown_(std::move(unknowns)) {}
 
-  // A good one for this matrix.
-  explicit Elimination_order(const Lower_half& a) : unknown_(std::size_t(a.size()))
+  // A good one for this matrix. It does not depend on the number of threads.
+  explicit Elimination_order(const Lower_half& a, const Concurrency& concurrency = Concurrency())
   {
-    typedef Eigen::SparseMatrix<double> Matrix;
-    if(unknown_.empty())
-      return;
-    const Eigen::Map<const Matrix> lower(a.size(), a.size(), Eigen::Index(a.row.size()), a.first.data(), a.row.data(), a.value.data());
-    Eigen::AMDOrdering<int>::PermutationType order;
-    Eigen::AMDOrdering<int>()(lower.selfadjointView<Eigen::Lower>(), order);
-    std::copy_n(order.indices().data(), unknown_.size(), unknown_.begin());
+    int levels = 0;
+    while((a.size() >> levels) > size_of_parts)
+      ++levels;
+    if(levels < 2 || !order_by_parts(a, levels, concurrency))
+      unknown_ = order_of_minimum_degree(a.first, a.row);
   }
 
   const std::vector<int>& unknowns() const { return unknown_; }
 
 private:
+  static constexpr int size_of_parts = 8000; // at most
+
+  // Of the matrix of which the lower half has these entries. Unknowns without an entry on the diagonal would come last.
+  static std::vector<int> order_of_minimum_degree(const std::vector<int>& first, const std::vector<int>& row)
+  {
+    typedef Eigen::SparseMatrix<double> Matrix;
+    const int n = int(first.size()) - 1;
+    std::vector<int> result(static_cast<std::size_t>(n));
+    if(n == 0)
+      return result;
+    const std::vector<double> value(row.size(), 0.); // which does not matter
+    const Eigen::Map<const Matrix> lower(n, n, Eigen::Index(row.size()), first.data(), row.data(), value.data());
+    Eigen::AMDOrdering<int>::PermutationType order;
+    Eigen::AMDOrdering<int>()(lower.selfadjointView<Eigen::Lower>(), order);
+    std::copy_n(order.indices().data(), result.size(), result.begin());
+    return result;
+  }
+
+  // The neighbors of every unknown, by its number: of `first` the numbers where they begin.
+  static void find_neighbors(const Lower_half& a, std::vector<int>& first, std::vector<int>& neighbor)
+  {
+    first.assign(std::size_t(a.size()) + 1, 0);
+    const auto for_each = [&](const auto& action)
+    {
+      for(int column = 0; column < a.size(); ++column)
+        for(int k = a.first[column]; k < a.first[column + 1]; ++k)
+          if(a.row[k] != column)
+            action(a.row[k], column);
+    };
+    for_each([&](int v, int w) { ++first[v + 1]; ++first[w + 1]; });
+    for(int v = 0; v < a.size(); ++v)
+      first[v + 1] += first[v];
+    neighbor.resize(std::size_t(first.back()));
+    std::vector<int> free_place(first.begin(), first.end() - 1);
+    for_each([&](int v, int w) { neighbor[free_place[v]++] = w; neighbor[free_place[w]++] = v; });
+  }
+
+  // Returns whether the separators are as short as those of surfaces.
+  bool order_by_parts(const Lower_half& a, int levels, const Concurrency& concurrency)
+  {
+    std::vector<int> first, neighbor;
+    find_neighbors(a, first, neighbor);
+    const Nested_dissection dissection(first, neighbor, levels);
+    if(dissection.number_of_separating_vertices() > std::size_t(a.size()) / 8)
+      return false;
+    std::vector<std::vector<int> > sets = dissection.sets();
+    std::vector<int> set(std::size_t(a.size())), place(std::size_t(a.size()));
+    for(std::size_t s = 0; s < sets.size(); ++s)
+      for(std::size_t i = 0; i < sets[s].size(); ++i)
+      {
+        set[sets[s][i]] = int(s);
+        place[sets[s][i]] = int(i);
+      }
+    concurrency.for_each(int(dissection.number_of_parts()), [&](int s)
+    {
+      std::vector<int> local_first(1, 0), local_row;
+      for(int i = 0; i < int(sets[s].size()); ++i)
+      {
+        const int v = sets[s][i];
+        local_row.push_back(i);
+        for(int k = first[v]; k < first[v + 1]; ++k)
+          if(set[neighbor[k]] == s && place[neighbor[k]] > i)
+            local_row.push_back(place[neighbor[k]]);
+        local_first.push_back(int(local_row.size()));
+      }
+      std::vector<int> ordered;
+      for(const int i : order_of_minimum_degree(local_first, local_row))
+        ordered.push_back(sets[s][i]);
+      sets[s].swap(ordered);
+    });
+    unknown_.reserve(set.size());
+    for(const std::vector<int>& s : sets)
+      unknown_.insert(unknown_.end(), s.begin(), s.end());
+    return true;
+  }
+
   std::vector<int> unknown_;
 };
 

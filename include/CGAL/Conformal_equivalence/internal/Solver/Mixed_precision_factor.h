@@ -66,7 +66,7 @@ void Mixed_precision_factor<Single, Double>::set_concurrency(const Concurrency& 
 template <typename Single, typename Double>
 void Mixed_precision_factor<Single, Double>::analyze(const Lower_half& a)
 {
-  symbolic_ = std::make_shared<Symbolic_factor>(a, Elimination_order(a));
+  symbolic_ = std::make_shared<Symbolic_factor>(a, Elimination_order(a, concurrency_));
   single_.reset();
   double_.reset();
 }

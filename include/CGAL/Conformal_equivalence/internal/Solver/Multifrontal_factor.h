@@ -54,10 +54,29 @@ private:
   typedef Dense_front<Number> Front;
   static_assert(std::size_t(Front::overhang) <= Symbolic_factor::gap, "groups must not write to each other");
 
+  // Room for numbers, which are not set before they are used: by the thread that uses them, as its pages come to be at the first use.
+  class Room
+  {
+  public:
+    void resize(std::size_t size)
+    {
+      if(size != size_)
+        numbers_.reset(new Number[size]);
+      size_ = size;
+    }
+
+    Number* data() { return numbers_.get(); }
+    const Number* data() const { return numbers_.get(); }
+
+  private:
+    std::unique_ptr<Number[]> numbers_;
+    std::size_t size_ = 0;
+  };
+
   // What one group of subtrees, or the top, needs for itself.
   struct Workspace
   {
-    std::vector<Number> stack[2]; // updates
+    Room stack[2];                // updates
     Number* end[2];               // of what is on the stacks
     std::vector<Number> front;    // a vector on one front
     std::vector<Number> on_top;   // what vectors of the group add to the columns of the top
@@ -80,8 +99,8 @@ private:
   std::shared_ptr<const Symbolic_factor> symbolic_;
   std::vector<double> scale_;      // by unknown
   std::vector<Number> entries_;    // of the scaled matrix
-  std::vector<Number> values_;     // of L, panel by panel
-  std::vector<Number> kept_;       // updates of the roots of subtrees
+  Room values_;                    // of L, panel by panel
+  Room kept_;                      // updates of the roots of subtrees
   std::vector<std::size_t> place_of_kept_; // by supernode, if it is such a root
   std::vector<Workspace> spaces_;  // by group, and of the top
   std::vector<Number> x_;
@@ -192,16 +211,17 @@ bool Multifrontal_factor<Number>::eliminate(int s, Number* update, Workspace& sp
   return true;
 }
 
-// Makes the front of a supernode of its entries and of the updates of its children, which it takes from their stack.
+// Makes the front of a supernode of its entries and of the updates of its children, which it takes from their stack. What vectors read beyond
+// the end is set, too: it belongs to the same group, and not to anything that is there already.
 template <typename Number>
 void Multifrontal_factor<Number>::assemble(int s, Number* panel, Number* update, Workspace& space)
 {
   const Symbolic_factor& symbolic = *symbolic_;
   const Supernode& node = symbolic.supernodes[s];
-  std::fill_n(panel, node.panel_size(), Number(0));
-  std::fill_n(update, node.update_size(), Number(0));
+  std::fill_n(panel, node.panel_size() + Front::overhang, Number(0));
+  std::fill_n(update, node.update_size() + Front::overhang, Number(0));
   for(std::size_t k = symbolic.first_entry[s]; k < symbolic.first_entry[s + 1]; ++k)
-    values_[symbolic.entries[k].place] = entries_[symbolic.entries[k].source];
+    values_.data()[symbolic.entries[k].place] = entries_[symbolic.entries[k].source];
   Number*& children_end = space.end[1 - node.depth % 2];
   for(int child = node.first_child; child != Symbolic_factor::none; child = symbolic.supernodes[child].next_sibling)
   {

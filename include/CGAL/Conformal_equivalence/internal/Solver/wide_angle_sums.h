@@ -22,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -163,6 +164,18 @@ public:
         corners[b - first].add(t, length, b * lanes + std::uint32_t(i), i, sums);
   }
 
+  // half of b + c - a, as excess() has it
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_tangent(const Numbers& a, const Numbers& b, const Numbers& c, Numbers& result)
+  {
+    const auto is_longer = (b.hi > c.hi) | ((b.hi == c.hi) & (b.lo > c.lo));
+    Numbers longer, shorter;
+    longer.select(is_longer, b, c);
+    shorter.select(is_longer, c, b);
+    result.set_difference(longer, a);
+    result.set_sum(result, shorter);
+    result.halve();
+  }
+
 private:
   // The scaled lengths of the sides k of the triangles from f on.
   template <int... i>
@@ -202,18 +215,6 @@ private:
       tangent[k].set_product(tangent[k], unit);
       tangent[k].store(x_hi_[k], x_lo_[k]);
     }
-  }
-
-  // half of b + c - a, as excess() has it
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_tangent(const Numbers& a, const Numbers& b, const Numbers& c, Numbers& result)
-  {
-    const auto is_longer = (b.hi > c.hi) | ((b.hi == c.hi) & (b.lo > c.lo));
-    Numbers longer, shorter;
-    longer.select(is_longer, b, c);
-    shorter.select(is_longer, c, b);
-    result.set_difference(longer, a);
-    result.set_sum(result, shorter);
-    result.halve();
   }
 
   static void add_one(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, Sums& sums)
@@ -367,6 +368,18 @@ struct Wide_vectors_with_avx2 : public Wide_vectors<32>
     Corners::add_blocks(t, length, first, last, corners, sums);
   }
 };
+
+// The scaled lengths, by edge.
+template <typename NT, typename Wide>
+std::vector<Wide> wide_lengths(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s)
+{
+  std::vector<Wide> result(t.number_of_edges(), Wide(0));
+  if constexpr(std::is_same<NT, double>::value && std::is_same<Wide, Double_double>::value)
+    (has_avx2() ? Wide_vectors_with_avx2::set_lengths : Wide_vectors<16>::set_lengths)(t, s, 0, t.number_of_edges(), result);
+  else
+    set_wide_lengths(t, s, 0, t.number_of_edges(), result);
+  return result;
+}
 
 // Lengths, and then corners of some thousand triangles at a time, are computed by several threads; the latter are added by one.
 template <typename Vectors>

@@ -63,7 +63,7 @@ private:
     development(find_pieces(disk_, nothing, wedges).front().central_face);
     position_.assign(disk_.number_of_vertices(), Complex{Wide(0), Wide(0)});
     for(Index h = 0; h < disk_.number_of_halfedges(); ++h)
-      position_[disk_.target(h)] = development.position[wedges.of_corner[h]];
+      position_[disk_.target(h)] = development.positions()[wedges.of_corner[h]];
   }
 
   static Wide sqrt_of(const Wide& x)
