@@ -91,8 +91,8 @@ class Development_vectors
     template <int... i>
     CGAL_CONFORMAL_EQUIVALENCE_INLINE void load(const Complex* const* z, std::integer_sequence<int, i...>)
     {
-      re = {Vector{z[i]->re.hi...}, Vector{z[i]->re.lo...}};
-      im = {Vector{z[i]->im.hi...}, Vector{z[i]->im.lo...}};
+      re.load({z[i]->re.hi...}, {z[i]->re.lo...});
+      im.load({z[i]->im.hi...}, {z[i]->im.lo...});
     }
 
     CGAL_CONFORMAL_EQUIVALENCE_INLINE void set_product(const Complex_vector& x, const Complex_vector& y)
@@ -158,11 +158,11 @@ private:
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static void lay_out(Front& front, std::size_t k, std::integer_sequence<int, i...> all)
   {
     const Development_step* const step[] = {&front.steps[(std::min)(k + std::size_t(i), front.steps.size() - 1)]...};
-    Numbers side[3] = {}, tangent[3], s, r; // set, as g++ cannot see that vectors are loaded as a whole
+    Numbers side[3], tangent[3], s, r;
     for(int j = 0; j < 3; ++j)
     {
       const Double_double* const l[] = {&front.length[step[i]->edges[j]]...};
-      side[j] = {Vector{l[i]->hi...}, Vector{l[i]->lo...}};
+      side[j].load({l[i]->hi...}, {l[i]->lo...});
     }
     set_tangent(side[0], side[1], side[2], tangent[0]);
     set_tangent(side[1], side[2], side[0], tangent[1]);
@@ -183,7 +183,7 @@ private:
 
     const Complex* const from[] = {&front.sides[step[i]->side].direction...};
     const Complex* const origin[] = {&front.position[step[i]->origin]...};
-    Complex_vector direction = {}, turn, beyond_next, to_apex, apex = {};
+    Complex_vector direction, turn, beyond_next, to_apex, apex;
     direction.load(from, all);
     apex.load(origin, all);
     turn.set_rotation(tangent[2], r);

@@ -27,6 +27,13 @@ struct Double_double_vector
 
   Vector hi, lo;
 
+  // Entries from wherever they were gathered. (Vectors made of single entries make g++ take them for uninitialized.)
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void load(const double (&high)[lanes], const double (&low)[lanes])
+  {
+    std::memcpy(&hi, high, sizeof(hi));
+    std::memcpy(&lo, low, sizeof(lo));
+  }
+
   // *this = x + y
   CGAL_CONFORMAL_EQUIVALENCE_INLINE void set_sum(const Double_double_vector& x, const Double_double_vector& y)
   {
