@@ -228,6 +228,7 @@ async function test_header(browser)
     assert(header.rows <= 2 && header.lines <= 2 && header.overflow <= 0, `at a width of ${width}: ${JSON.stringify(header)}`);
   }
   await browser.set_window(800, 560);
+  await ask(browser, in_page.header); // when it has its size again
 }
 
 // The page is drawn when it is loaded, even if no frame, timer or observer ever comes.
