@@ -87,16 +87,6 @@ class Development_vectors
   {
     Numbers re, im;
 
-    // Gathered from their addresses.
-    template <int... i>
-    CGAL_CONFORMAL_EQUIVALENCE_INLINE void load(const Complex* const* z, std::integer_sequence<int, i...>)
-    {
-      re.hi = Vector{z[i]->re.hi...};
-      re.lo = Vector{z[i]->re.lo...};
-      im.hi = Vector{z[i]->im.hi...};
-      im.lo = Vector{z[i]->im.lo...};
-    }
-
     CGAL_CONFORMAL_EQUIVALENCE_INLINE void set_product(const Complex_vector& x, const Complex_vector& y)
     {
       Numbers product;
@@ -157,7 +147,7 @@ public:
 private:
   // The steps from k on; where there are less than lanes, the last one several times.
   template <int... i>
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void lay_out(Front& front, std::size_t k, std::integer_sequence<int, i...> all)
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void lay_out(Front& front, std::size_t k, std::integer_sequence<int, i...>)
   {
     const Development_step* const step[] = {&front.steps[(std::min)(k + std::size_t(i), front.steps.size() - 1)]...};
     Numbers side[3], tangent[3], s, r;
@@ -185,9 +175,9 @@ private:
 
     const Complex* const from[] = {&front.sides[step[i]->side].direction...};
     const Complex* const origin[] = {&front.position[step[i]->origin]...};
-    Complex_vector direction, turn, beyond_next, to_apex, apex;
-    direction.load(from, all);
-    apex.load(origin, all);
+    const Complex_vector direction = {{{from[i]->re.hi...}, {from[i]->re.lo...}}, {{from[i]->im.hi...}, {from[i]->im.lo...}}};
+    Complex_vector apex = {{{origin[i]->re.hi...}, {origin[i]->re.lo...}}, {{origin[i]->im.hi...}, {origin[i]->im.lo...}}};
+    Complex_vector turn, beyond_next, to_apex;
     turn.set_rotation(tangent[2], r);
     turn.im = {-turn.im.hi, -turn.im.lo};
     beyond_next.set_product(direction, turn);
