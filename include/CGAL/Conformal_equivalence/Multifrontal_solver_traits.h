@@ -98,8 +98,8 @@ public:
     return apply(B, X, [this](std::vector<double>& b) { return factor_.precondition(b); });
   }
 
-  /// allows so many threads, also for the next analysis; only one is used where the program does not link `Conformal_equivalence::TBB_support`. Results do not
-  /// depend on their number.
+  /// allows so many threads, also for the next analysis; only one is used where the program does not link
+  /// `Conformal_equivalence::TBB_support`. Results do not depend on their number.
   void set_number_of_threads(unsigned int number_of_threads) { factor_.set_concurrency(internal::Concurrency(number_of_threads)); }
 
 private:
