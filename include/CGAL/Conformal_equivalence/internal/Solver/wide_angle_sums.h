@@ -183,8 +183,7 @@ private:
   void load_sides(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t h, Numbers& side, std::integer_sequence<int, i...>)
   {
     const Double_double* const l[] = {&length[t.edge(h + 3 * i)]...};
-    side.hi = Vector{l[i]->hi...};
-    side.lo = Vector{l[i]->lo...};
+    side.load({l[i]->hi...}, {l[i]->lo...});
   }
 
   CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, Lanes)
