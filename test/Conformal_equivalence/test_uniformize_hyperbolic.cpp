@@ -609,7 +609,7 @@ BOOST_AUTO_TEST_CASE(triangle_groups)
 {
   const Triangulation t = glued({5, 4, 3, 2, 1, 0});
   BOOST_TEST_REQUIRE(t.number_of_vertices() == 3u);
-  for(const std::array<int, 3>& k : {std::array<int, 3>{{3, 3, 4}}, std::array<int, 3>{{3, 4, 5}}, std::array<int, 3>{{6, 7, 100}}})
+  for(const std::array<int, 3>& k : {std::array<int, 3>{{3, 3, 4}}, std::array<int, 3>{{3, 4, 5}}, std::array<int, 3>{{100, 100, 100}}})
   {
     CE::Conformal_conditions<double> conditions(t);
     double area = pi;
@@ -622,7 +622,7 @@ BOOST_AUTO_TEST_CASE(triangle_groups)
     BOOST_TEST_REQUIRE(CE::message(metric.status) == "success");
     BOOST_TEST(metric.statistics.residual < 1e-24);
     BOOST_TEST(std::abs(metric.area - 2 * area) < rounding);
-    const Triangulation& found = metric.triangulation; // the same up to numbers: these triangles are acute
+    const Triangulation& found = metric.triangulation; // the same up to numbers, as the chords form acute triangles
     for(Index h = 0; h < 3; ++h) // the law of cosines for angles, in cosh(l) - 1 = 2 sinh^2(l/2)
     {
       const double a = pi / k[found.apex(h)], b = pi / k[found.origin(h)], c = pi / k[found.target(h)], x = double(metric.wide_half_sinh(h));
