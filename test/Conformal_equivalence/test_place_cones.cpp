@@ -936,19 +936,24 @@ BOOST_AUTO_TEST_CASE(the_best_so_far_is_returned_when_the_visitor_stops)
       break;
     }
     BOOST_TEST((placement.status == CE::Status::STOPPED_BY_VISITOR));
-    if(!bool(placement.metric) || placement.metric.log_scale_factors.empty())
-      continue;
-    BOOST_TEST(placement.cones.size() == 5);
-    BOOST_TEST(placement.maximum_log_scale_factor == largest(placement.metric.log_scale_factors));
-    if(n_best++ % 8 != 0) // a mesh gets the same
+    const bool is_found = bool(placement.metric) && !placement.metric.log_scale_factors.empty();
+    if(is_found)
+    {
+      BOOST_TEST(placement.cones.size() == 5);
+      BOOST_TEST(placement.maximum_log_scale_factor == largest(placement.metric.log_scale_factors));
+      ++n_best;
+    }
+    if(n % 8 != 0 && !(is_found && n_best == 1)) // a mesh gets the same
       continue;
     Mesh mesh = surface_mesh<Mesh>(arms(3));
     auto angle = mesh.add_property_map<Vertex, double>("v:angle", -1).first;
     const auto report = CE::place_cones(mesh, angle, params::number_of_cones(std::size_t(5)).visitor(Impatient(n)));
     BOOST_TEST((report.status == CE::Status::STOPPED_BY_VISITOR));
-    BOOST_TEST(report.cones.size() == 5);
+    BOOST_TEST(report.cones.size() == (is_found ? 5u : 0u));
     for(const auto& cone : report.cones)
       BOOST_TEST(cone.angle == angle[cone.vertex]);
+    if(!is_found)
+      BOOST_TEST(angle[Vertex(0)] == -1); // as it was
   }
   BOOST_TEST(n_done == 1);
   BOOST_TEST(n_best > 0);

@@ -31,11 +31,14 @@ void report_rounding(const Imported_mesh<TriangleMesh, double>& mesh, const Cone
     report.flattened_cones.push_back(mesh.vertex(v));
 }
 
-// Whether there are cones, with their metric: those asked for, or the best that were found.
+// Whether there are cones, with their metric: those asked for, or the best that were found. A search that was stopped may not have come to a metric.
 inline bool has_cones(const Cone_placement<double>& placement)
 {
-  return bool(placement) || placement.status == Status::BOUND_NOT_MET
-      || (placement.status == Status::STOPPED_BY_VISITOR && is_success(placement.metric.status));
+  if(placement.status != Status::STOPPED_BY_VISITOR)
+    return bool(placement) || placement.status == Status::BOUND_NOT_MET;
+  const std::size_t n = placement.cones.size();
+  return n > 0 && placement.angles.size() == n && placement.free_angles.size() == n
+      && is_success(placement.metric.status) && !placement.metric.log_scale_factors.empty();
 }
 
 // What became of a placement: status, elements at fault, and the cones, if there are any. `report` is that of the import.
