@@ -1429,7 +1429,7 @@ BOOST_AUTO_TEST_CASE(there_is_no_metric_where_none_is_found, * needs_mesh("blob.
     BOOST_CHECK(Certificate(t, conditions, fixed.log_scale_factors).proves_that_there_is_none());
   }
   BOOST_CHECK_GT(number_with, 3);
-  BOOST_CHECK_GT(number_without, 3);
+  BOOST_CHECK_GE(number_without, 3);
 }
 
 // ---- Appendix E
