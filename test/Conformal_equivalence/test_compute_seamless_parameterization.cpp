@@ -217,7 +217,7 @@ double area(const Result& r)
 
 // Triangles of positive orientation may still go around a vertex once too often. Sums are right but for multiples of a full turn, so that no more
 // than half of one has to be told apart.
-void check_angle_sums(const Result& r, int n)
+std::size_t number_of_wound_vertices(const Result& r, int n)
 {
   const double skew = n % 3 == 0 ? 1. / 2 : 0, height = n % 3 == 0 ? std::sqrt(3.) / 2 : 1; // from lattice coordinates to the plane
   std::vector<double> excess(r.sm.number_of_vertices(), -2 * pi);
@@ -234,7 +234,7 @@ void check_angle_sums(const Result& r, int n)
   for(Vertex v : r.sm.vertices())
     number_of_wound += !r.sm.is_border(v) && !r.sm.is_isolated(v) && std::abs(excess[v]) > pi;
   BOOST_TEST(number_of_wound == r.report.tiling.number_of_wound_vertices);
-  BOOST_TEST(number_of_wound == 0u);
+  return number_of_wound;
 }
 
 void check_whole(const Result& r, int n)
@@ -242,7 +242,7 @@ void check_whole(const Result& r, int n)
   BOOST_TEST_REQUIRE(bool(r.report), CE::message(r.report));
   check_seams(r, n);
   check_cones(r);
-  check_angle_sums(r, n);
+  BOOST_TEST(number_of_wound_vertices(r, n) == 0u);
   const auto verdict = CE::verify_layout(r.sm, r.uv);
   BOOST_TEST(verdict.number_of_flipped_triangles == 0u);
   BOOST_TEST(verdict.number_of_degenerate_triangles == 0u);
@@ -855,6 +855,30 @@ BOOST_AUTO_TEST_CASE(the_bound_on_the_distortion_is_met_or_the_best_is_returned)
   check_seams(*r, 4);
 }
 
+// A coarse sphere with much curvature in few vertices: where triangles go around each vertex as often as they should, the least mean distortion is
+// 1.0347 (on 172 tiles). The bound counts for more than that.
+BOOST_AUTO_TEST_CASE(the_bound_on_the_distortion_is_met_by_triangles_wound_around_vertices_if_by_no_others)
+{
+  Soup soup = icosphere(2);
+  add_noise(soup, .05, 161);
+  const auto r = result(soup);
+  auto angle = r->sm.add_property_map<Vertex, double>("v:angle", 2 * pi).first;
+  for(const auto& cone : std::map<int, int>{{17, 1}, {100, 1}, {114, 1}, {122, 1}, {127, 3}, {135, 9}})
+    angle[Vertex(cone.first)] = cone.second * pi / 2;
+  (*r)(params::cone_angle_map(angle).maximum_distortion(1.05));
+  check_whole(*r, 4);
+  const double least = r->report.tiling.mean_distortion;
+
+  const double bound = 1 + (least - 1) * .9;
+  (*r)(params::cone_angle_map(angle).maximum_distortion(bound));
+  BOOST_TEST_REQUIRE(bool(r->report), CE::message(r->report));
+  BOOST_TEST(r->report.tiling.mean_distortion <= bound);
+  BOOST_TEST(number_of_wound_vertices(*r, 4) > 0u);
+  check_seams(*r, 4);
+  check_cones(*r);
+  BOOST_TEST(CE::verify_layout(r->sm, r->uv).number_of_flipped_triangles == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(a_disk_without_cones_and_a_disk_with_given_cones)
 {
   const auto plain = result(bumps(16));
@@ -875,20 +899,12 @@ BOOST_AUTO_TEST_CASE(a_disk_without_cones_and_a_disk_with_given_cones)
 }
 
 // A border whose angles are prescribed so that the surface turns by right angles around it.
-BOOST_AUTO_TEST_CASE(further_borders_need_multiples_and_are_refused_otherwise)
+BOOST_AUTO_TEST_CASE(further_borders_with_angles_need_multiples_and_are_refused_otherwise)
 {
   Soup bent = annulus(6, 40, 0.4); // with natural borders it turns by some angle
   for(Point& p : bent.points)
     p[2] += 0.3 * p[0] * p[0];
-  const auto refused = result(bent);
-  (*refused)(params::number_of_tiles(100));
-  BOOST_TEST((refused->report.status == CE::Status::NOT_SEAMLESS));
-  BOOST_TEST(!refused->report.edges.empty());
-  const double quarter = refused->report.amount / (pi / 2);
-  BOOST_TEST(std::abs(quarter - std::round(quarter)) > 1e-6); // not by a quarter of a turn, by far more than rounding
-  BOOST_TEST(refused->is_untouched());
-
-  for(const int quarters : {0, 1, 3})
+  for(const double quarters : {0.5, 0., 1., 3.})
   {
     // the total turning of each border: the outer one 2 pi - a, the inner one -(2 pi - a)
     const auto r = result(bent);
@@ -909,7 +925,16 @@ BOOST_AUTO_TEST_CASE(further_borders_need_multiples_and_are_refused_otherwise)
         angle[v] = pi - turning / double(cycle.size());
     }
     (*r)(params::border_angle_map(angle).number_of_tiles(200));
+    if(quarters == 0.5)
+    {
+      BOOST_TEST((r->report.status == CE::Status::NOT_SEAMLESS));
+      BOOST_TEST(!r->report.edges.empty());
+      BOOST_TEST(std::abs(std::abs(std::remainder(r->report.amount, pi / 2)) - pi / 4) <= layout_error(triangulation(bent)));
+      BOOST_TEST(r->is_untouched());
+      continue;
+    }
     check_whole(*r, 4);
+    BOOST_TEST(r->report.handles.number_of_steps == 0u); // nothing had to be turned
     BOOST_TEST(!r->report.transitions.empty());
   }
 }

@@ -13,9 +13,12 @@
 #include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Imported_mesh.h>
 #include <CGAL/Conformal_equivalence/compute_refined_seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/compute_seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/verify_layout.h>
+
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
 #include <array>
@@ -506,7 +509,7 @@ void check_seamless(const Result& r, int n)
     number_of_wrong += moved(r.uv[r.sm.prev(h)], t.quanta, t.lattice_translation) != r.uv[g] ? 1 : 0;
   }
   for(Edge e : r.sm.edges())
-    if(seen.count(e) == 0)
+    if(seen.count(e) == 0 && !r.sm.is_border(e))
       number_of_wrong += r.uv[r.sm.halfedge(e)] != r.uv[r.sm.prev(r.sm.opposite(r.sm.halfedge(e)))] ? 1 : 0;
   BOOST_TEST(number_of_wrong == 0u);
   const auto verdict = CE::verify_layout(r.sm, r.uv);
@@ -533,6 +536,84 @@ BOOST_AUTO_TEST_CASE(handles_turn_by_multiples)
   BOOST_TEST(eight.report.handles.mean_departure > 0);
   BOOST_TEST(eight.report.handles.mean_departure <= eight.report.handles.maximum_departure);
   BOOST_TEST(eight.report.handles.number_of_steps > 0u);
+}
+
+// ---- Borders
+
+namespace {
+
+// Without the faces around some vertices.
+Mesh punctured(Mesh sm, const std::vector<Index>& vertices)
+{
+  for(Index v : vertices)
+    for(Face f : std::vector<Face>(sm.faces_around_target(sm.halfedge(Vertex(v))).begin(), sm.faces_around_target(sm.halfedge(Vertex(v))).end()))
+      CGAL::Euler::remove_face(sm.halfedge(f), sm);
+  sm.collect_garbage();
+  return sm;
+}
+
+// The loops that are reported turn by what the seams that they cross make of it.
+void check_loops(const Result& r)
+{
+  const int n = r.report.tiling.symmetry;
+  std::vector<int> turn(r.sm.num_halfedges(), 0);
+  for(const auto& t : r.report.transitions)
+  {
+    turn[t.halfedge] = t.quanta;
+    turn[r.sm.opposite(t.halfedge)] = -t.quanta;
+  }
+  for(const auto& loop : r.report.handles.loops)
+  {
+    long sum = loop.quanta;
+    for(Halfedge h : loop.halfedges)
+      sum += turn[r.sm.opposite(h)]; // out of the face on the other side
+    BOOST_TEST(sum % n == 0);
+  }
+}
+
+} // namespace
+
+// A basis has 2 g + b - 1 loops, and flips that leave the surface as it is leave their turnings.
+BOOST_AUTO_TEST_CASE(loops_of_surfaces_with_borders)
+{
+  const Mesh whole = surface_mesh<Mesh>(torus(14, 9));
+  const std::vector<std::vector<Index> > holes = {{}, {0}, {0, 40}, {0, 40, 70}};
+  for(const auto& vertices : holes)
+  {
+    Triangulation t = CE::import_mesh(punctured(whole, vertices)).triangulation;
+    Dual_loops loops(t, CE::internal::homology_basis(t));
+    BOOST_TEST(loops.size() == (vertices.empty() ? 2 : vertices.size() + 1));
+    for(std::size_t i = 0; i < loops.size(); ++i)
+      BOOST_TEST(CE::internal::is_dual_loop(t, loops.loop(i)));
+    const std::vector<double> before = turnings(t, loops);
+    Loop broken;
+    BOOST_REQUIRE(CE::internal::make_intrinsic_delaunay(t, broken, [&](Index e) { loops.flip(t, e); }));
+    check_equal(turnings(t, loops), before, rounded_turning);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(handles_and_borders_turn_by_multiples)
+{
+  for(int n : {4, 6})
+  {
+    Result r(punctured(surface_mesh<Mesh>(torus(30, 16)), {0, 250}));
+    r(params::number_of_cones(8).angle_quantum(2 * pi / n).number_of_tiles(2000).seamless_coordinates(CE::Seamless_coordinates::LATTICE));
+    check_seamless(r, n);
+    check_loops(r);
+    BOOST_TEST(r.report.handles.loops.size() == 3u);
+    BOOST_TEST((r.report.handles.existence == Existence::EXPECTED));
+  }
+  Soup bent = annulus(6, 40, 0.4); // with natural borders it turns by some angle
+  for(Point& p : bent.points)
+    p[2] += 0.3 * p[0] * p[0];
+  Result r(surface_mesh<Mesh>(bent));
+  r(params::number_of_tiles(100));
+  check_seamless(r, 4);
+  check_loops(r);
+  BOOST_TEST_REQUIRE(r.report.handles.loops.size() == 1u);
+  const double quarters = r.report.handles.loops[0].conformal_turning / (pi / 2);
+  BOOST_TEST(std::abs(quarters - std::round(quarters)) > 1e-6); // far more than rounding
+  BOOST_TEST(r.report.handles.loops[0].quanta == std::lround(quarters));
 }
 
 // The joint has sharp edges and few triangles, which are inverted unless they are taken apart.

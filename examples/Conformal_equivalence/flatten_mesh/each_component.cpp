@@ -209,6 +209,7 @@ void take_over_tiling(const CE::Tiling& found, double area, double before, CE::T
   }
   whole.maximum_distortion = (std::max)(whole.maximum_distortion, found.maximum_distortion);
   whole.is_closest = whole.is_closest && found.is_closest;
+  whole.number_of_wound_vertices += found.number_of_wound_vertices;
 }
 
 // Elements of the component become those of the whole.

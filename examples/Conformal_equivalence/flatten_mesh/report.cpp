@@ -146,6 +146,8 @@ void add_tiling(const Figures& figures, Lines& lines)
     lines.emplace_back("scale and rotation", text(t.scale, ", ", in_degrees(t.rotation), " degrees"));
   lines.emplace_back("deformation", text("mean ", t.mean_distortion, ", max ", t.maximum_distortion,
                                          t.is_closest ? "" : " (a smaller one may exist)"));
+  if(t.number_of_wound_vertices != 0)
+    lines.emplace_back("wound vertices", text(t.number_of_wound_vertices, " (triangles go around them by full turns more or less than they should)"));
 }
 
 // What only maps to the sphere and the disk have.
@@ -320,6 +322,7 @@ nlohmann::ordered_json json_seamless(const Figures& figures)
   nlohmann::ordered_json json = { {"symmetry", t.symmetry}, {"tiles", t.number_of_tiles}, {"scale", t.scale},
                                   {"rotation_degrees", in_degrees(t.rotation)},
                                   {"distortion", { {"mean", t.mean_distortion}, {"max", t.maximum_distortion} }}, {"closest", t.is_closest},
+                                  {"wound_vertices", t.number_of_wound_vertices},
                                   {"quasi_conformal_mean", { {"before", t.mean_factor_before}, {"after", t.mean_factor} }} };
   json["seams"] = std::move(seams);
   if(! figures.report.handles.loops.empty())
@@ -347,7 +350,8 @@ void add_json_mapping(const Options& options, const Mapped_component& component,
     json["centre"] = component.centre;
   if(t.symmetry != 0)
     json["seamless"] = { {"tiles", t.number_of_tiles}, {"scale", t.scale}, {"rotation_degrees", in_degrees(t.rotation)},
-                         {"distortion", { {"mean", t.mean_distortion}, {"max", t.maximum_distortion} }}, {"closest", t.is_closest} };
+                         {"distortion", { {"mean", t.mean_distortion}, {"max", t.maximum_distortion} }}, {"closest", t.is_closest},
+                         {"wound_vertices", t.number_of_wound_vertices} };
 }
 
 // Null if there is only one.

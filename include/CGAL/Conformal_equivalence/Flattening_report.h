@@ -97,11 +97,12 @@ struct Turned_loop
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
-/// How the handles of a closed surface were turned, so that it has a seamless parameterization, and how far that led out of the conformal class.
+/// How the handles of a surface, and all its borders but one, were turned, so that it has a seamless parameterization, and how far that led out of
+/// the conformal class.
 template <typename TriangleMesh>
 struct Handle_turning
 {
-  std::vector<Turned_loop<TriangleMesh> > loops; ///< a basis of the first homology; empty unless there are handles
+  std::vector<Turned_loop<TriangleMesh> > loops; ///< a basis of the first homology; empty unless there are handles, or several borders
   bool is_nearest = true;          ///< whether the turnings are proven to be those that take the least deformation, to first order
   Surface_existence existence = Surface_existence::PROVEN; ///< what is known of surfaces with these cones and turnings
   double mean_departure = 0;       ///< root of the mean square of the changes of the logarithms of the length cross ratios; 0: conformal

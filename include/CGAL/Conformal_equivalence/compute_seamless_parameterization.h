@@ -63,7 +63,7 @@ struct Loop_turning
 
 /// \ingroup PkgConformalEquivalenceDoors
 ///
-/// makes a seamless parameterization of a disk or of a closed surface: a layout with cones at points of a lattice, in which the two sides of
+/// makes a seamless parameterization of a surface of any topology: a layout with cones at points of a lattice, in which the two sides of
 /// every seam edge differ by a symmetry of the lattice. A checkerboard pattern, or any other texture with the symmetries of the lattice, then
 /// covers the surface without a visible seam; so do the tiles of a quadrangulation.
 ///
@@ -82,14 +82,15 @@ struct Loop_turning
 /// coordinates of one side to those of the other, without any rounding. With n = 3 and 6 this holds for `Seamless_coordinates::LATTICE`. All
 /// triangles are positive, decided exactly on the numbers written.
 ///
-/// On closed surfaces with handles cones do not determine alone what is seamless: loops around the handles, too, must turn by multiples of 2 pi / n,
+/// On surfaces with handles cones do not determine alone what is seamless: loops around the handles, too, must turn by multiples of 2 pi / n,
 /// and in a conformal class the cones leave no choice. There the conformally equivalent metric is deformed first, as little as it takes
 /// (of all edge lengths in Penner coordinates, by Newton's method, with flips, whatever `retriangulation` says): to the multiples next to what is
 /// there, chosen together, or to `loop_turnings`. `Flattening_report::handles` tells by how much, and whether it is proven that there is such a
 /// surface; if there is none, whatever the mesh, the status is `NOT_REALIZABLE`.
 ///
-/// On a surface with borders handles, and all borders but one, can be gone around; there the surface must turn by a multiple of 2 pi / n by
-/// itself, as around a border with prescribed angles whose sum makes it so. Otherwise the status is `NOT_SEAMLESS`.
+/// On a surface with borders handles, and all borders but one, can be gone around, and are turned in the same way, while natural borders bend as they
+/// like. A border with prescribed angles at all its vertices must turn by a multiple of 2 pi / n by itself; otherwise, and where borders took
+/// flips on the double, the status is `NOT_SEAMLESS`.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph`
 /// \tparam HalfedgeUVMap as in `flatten()`

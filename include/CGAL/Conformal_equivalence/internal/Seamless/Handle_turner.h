@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// From a conformally equivalent flat metric of a closed surface with handles to one that turns by multiples of 2 pi / n along all loops, which is
-// what section 8 of Springborn, Schroeder and Pinkall, 2008, leaves open: in a conformal class the cones alone determine how
+// From a conformally equivalent flat metric of a surface with handles, or several borders, to one that turns by multiples of 2 pi / n along all
+// loops, which is what section 8 of Springborn, Schroeder and Pinkall, 2008, leaves open: in a conformal class the cones alone determine how
 // handles turn. So the class is left, as little as it takes (Turning_equations.h).
 //
 // How the handles shall turn is chosen among all that is allowed: the integers m that minimize (m q - kappa)^T G (m q - kappa), where kappa are the
@@ -11,6 +11,8 @@
 // but what is said to first order does not hold so far; its diagonal alone would be rounding one by one. Where Newton's method does not find a
 // metric, the next nearest are tried. The user may prescribe turnings of some loops, modulo n: each is a congruence for the m
 // (congruent_vectors.h).
+//
+// Where u is prescribed at a border, as at natural ones, the border is free to bend, and its edges change their lengths as all others.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_HANDLE_TURNER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_HANDLE_TURNER_H
@@ -101,14 +103,18 @@ private:
   void compare_cross_ratios(const Triangulation& t)
   {
     double sum = 0;
+    std::size_t number_of_ratios = 0;
     for(Index e = 0; e < t.number_of_edges(); ++e)
     {
+      if(t.is_border_edge(e))
+        continue;
       const Index h = t.edge_halfedge(e), g = t.twin(h);
+      ++number_of_ratios;
       const double x = (change(t, t.next(h)) - change(t, t.previous(h))) + (change(t, t.next(g)) - change(t, t.previous(g)));
       sum += x * x;
       largest = (std::max)(largest, std::abs(x));
     }
-    mean = std::sqrt(sum / t.number_of_edges());
+    mean = number_of_ratios == 0 ? 0 : std::sqrt(sum / double(number_of_ratios));
   }
 
   double change(const Triangulation& t, Index h) const { return change_[t.edge(h)]; }
@@ -152,8 +158,9 @@ class Handle_turner
   typedef Dual_loops::Loop Loop;
 
 public:
-  // `metric` is a conformally equivalent one of `t`, a closed connected surface, with these conditions, all of which are angles. The cones have
-  // multiples of 2 pi / n. Keeps references.
+  // `metric` is a conformally equivalent one of `t`, a connected surface, with these conditions, all of which are angles inside the surface. It is
+  // not doubled; if all vertices of a border have angles, these make it turn by a multiple of 2 pi / n. The cones have such multiples. What is
+  // prescribed is for closed surfaces. Keeps references.
   Handle_turner(const Triangulation& t, const Metric& metric, const Conformal_conditions<NT>& conditions,
                 const std::vector<Quantized_cone>& cones, int n, const std::vector<Prescribed_turning>& prescribed,
                 const Solver_options& options);
@@ -203,6 +210,8 @@ private:
   // The congruences for the turnings of the basis; a chain that is not closed goes to `edges`.
   std::vector<Congruence> congruences(const std::vector<Loop>& basis, const std::vector<double>& turning, Outcome& outcome) const
   {
+    if(prescribed_.empty())
+      return {};
     const Homology_coordinates<NT> coordinates(t_, basis);
     const Triangulation s = scaled();
     const Corner_angles corners(s);
@@ -248,6 +257,20 @@ private:
 
   // ---- The choice
 
+  bool has_border() const
+  {
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      if(t_.is_border_vertex(v))
+        return true;
+    return false;
+  }
+
+  // What is known is known of closed surfaces.
+  Surface_existence existence(std::vector<long> quanta) const
+  {
+    return has_border() ? Surface_existence::EXPECTED : internal::existence(signature(std::move(quanta)));
+  }
+
   Seamless_signature signature(std::vector<long> quanta) const
   {
     Seamless_signature result;
@@ -284,7 +307,7 @@ private:
       for(std::size_t j = 0; j < v.coefficients.size(); ++j)
         for(std::size_t i = 0; i < quanta.size(); ++i)
           quanta[i] += long(v.coefficients[j] * admitted.basis[j][i]);
-      if(internal::existence(signature(quanta)) == Surface_existence::IMPOSSIBLE)
+      if(existence(quanta) == Surface_existence::IMPOSSIBLE)
         continue;
       if(bool(result))
         result.others.push_back(std::move(quanta));
@@ -298,7 +321,7 @@ private:
 
   void take(std::vector<long> quanta, Turned_handles& result) const
   {
-    result.existence = internal::existence(signature(quanta));
+    result.existence = existence(quanta);
     result.quanta = std::move(quanta);
     result.status = Status::OK;
   }
@@ -309,7 +332,7 @@ private:
   {
     Triangulation s = scaled();
     Delaunay_flipper<NT>(s).flip_to_delaunay(std::vector<double>(), all_edges(s), Flip_rule::PTOLEMY, [&](Index e) { loops.flip(s, e); });
-    const Turning_rows rows(s);
+    const Turning_rows rows(s, free_vertices());
     const Eigen::Index n = Eigen::Index(loops.size()), first = rows.number_of_vertices();
     Turning_equations equations(s, loops, rows, Corner_angles(s));
     if(!equations.factorize())
@@ -335,6 +358,15 @@ private:
       result.angle_sum.push_back(conditions_.angle_sum(v).template radians<double>());
     for(long q : quanta)
       result.turning.push_back(double(q) * quantum());
+    result.is_free = free_vertices();
+    return result;
+  }
+
+  std::vector<char> free_vertices() const
+  {
+    std::vector<char> result(t_.number_of_vertices(), 0);
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      result[v] = conditions_.is_fixed(v) ? 1 : 0;
     return result;
   }
 
@@ -389,8 +421,11 @@ private:
 
   // The metric whose scaled lengths are those of `found`, with the factors that come nearest to its departure; and its angle sums made those
   // of the conditions up to the rounding of the wide number type, by a conformal change too little to be seen elsewhere.
-  Metric with_factors(const Triangulation& found, const std::vector<double>& u, std::unique_ptr<Factorization> factorization) const
+  Metric with_factors(const Triangulation& found, std::vector<double> u, std::unique_ptr<Factorization> factorization) const
   {
+    for(Index v = 0; v < found.number_of_vertices(); ++v)
+      if(conditions_.is_fixed(v))
+        u[v] = conditions_.log_scale_factor(v);
     std::vector<NT> lengths;
     for(Index e = 0; e < found.number_of_edges(); ++e)
     {
@@ -404,6 +439,8 @@ private:
     Metric result = finder.find(conditions_, options);
     if(!result.is_retriangulated())
       result.triangulation = finder.take_triangulation();
+    if(result.is_doubled) // a change so little hardly ever needs that
+      result.status = Status::ITERATIONS_EXHAUSTED;
     return result;
   }
 
@@ -441,7 +478,7 @@ Turned_handles Handle_turner<NT>::choose() const
     return result;
   }
   // a torus without cones turns nowhere, and nothing can be deformed for that
-  const bool is_flat_torus = result.loops.size() == 2 && cones_.empty();
+  const bool is_flat_torus = result.loops.size() == 2 && cones_.empty() && !has_border();
   const std::vector<long> zero(result.loops.size(), 0);
   if(!is_flat_torus && !result.loops.empty())
     choose_among(admitted, result.conformal_turnings, loops, result);

@@ -96,6 +96,16 @@ public:
   const std::vector<Complex>& normalized_corners() const { return normalized_->corners(); }
 
 private:
+  // A layout with positive triangles, and what it was made with.
+  struct Found
+  {
+    bool is_any = false;
+    Layout<double> layout;
+    Tiling tiling;                               // how much was deformed
+    std::vector<Lattice_point> cone_positions, translation_of_path;
+    Complex scale = 1;                           // by which the normalized layout was turned and scaled
+  };
+
   void find()
   {
     if(polygon_.status != Status::OK)
@@ -234,38 +244,54 @@ private:
     for(int finer = 0; finer < most_refinements; ++finer)
     {
       const std::vector<Candidate> c = choice_->candidates(std::ldexp(options_.number_of_tiles, finer));
-      for(const bool is_strict : {true, false}) // triangles that go around a vertex once too often are better than nothing
+      const auto is_found = [&]
       {
-        seamless_.set_strict(is_strict);
         for(std::size_t i = 0; i < c.size() && i < most_tried; ++i)
           if(try_candidate(c[i]))
-            return prove(c[i]);
-      }
+          {
+            prove(c[i]);
+            return true;
+          }
+        return false;
+      };
+      if(is_found_strictly_or_not(is_found))
+        return;
     }
     refuse_inverted();
   }
 
-  // As few tiles as the bound on the mean distortion allows. (Triangles that go around a vertex once too often are better than nothing.)
+  // As few tiles as the bound on the mean distortion allows.
   void deform_within_bound()
   {
-    bool is_found = false;
-    for(const bool is_strict : {true, false})
-    {
-      seamless_.set_strict(is_strict);
-      if((is_strict || !is_found) && search_within_bound(is_found))
-        return;
-    }
-    if(!is_found)
+    Found best; // of those beyond the bound
+    if(is_found_strictly_or_not([&] { return search_within_bound(best); }))
+      return;
+    if(!best.is_any)
       return refuse_inverted();
+    found_ = std::move(best);
     result_.status = Status::BOUND_NOT_MET;
-    result_.amount = result_.tiling.mean_distortion;
+    result_.amount = found_.tiling.mean_distortion;
   }
 
-  // Returns whether the bound is met; `is_found`: whether there is a layout at all.
-  bool search_within_bound(bool& is_found)
+  // Triangles that go around a vertex once too often are better than nothing. Unless some were refused for that, the same search finds the same.
+  template <typename Search>
+  bool is_found_strictly_or_not(const Search& is_found)
+  {
+    seamless_.set_strict(true);
+    if(is_found())
+      return true;
+    if(!seamless_.has_refused_wound())
+      return false;
+    seamless_.set_strict(false);
+    return is_found();
+  }
+
+  // Returns whether the bound is met; `best` is the layout of least distortion beyond it, one without wound vertices if there is one.
+  bool search_within_bound(Found& best)
   {
     const std::size_t most_tried = 2; // the next number of tiles comes soon
     const double most_tiles = 1e9;    // so that lattice points stay far below the range in which seams are exact
+    const bool is_any_strict = best.is_any;
     for(double tiles = 1; tiles < most_tiles; tiles *= std::sqrt(2.))
     {
       const std::vector<Candidate> c = choice_->candidates(tiles);
@@ -275,14 +301,25 @@ private:
           break;
         if(!try_candidate(c[i]))
           continue;
-        is_found = true;
-        if(is_within_bound())
-          prove(c[i]);
-        if(is_within_bound())
+        if(is_within_bound(found_))
+        {
+          prove_within_bound(c[i]);
           return true;
+        }
+        if(!best.is_any || (!is_any_strict && found_.tiling.mean_distortion < best.tiling.mean_distortion))
+          best = found_;
       }
     }
     return false;
+  }
+
+  // What is closer to what was aimed at need not meet the bound.
+  void prove_within_bound(const Candidate& taken)
+  {
+    Found first = found_;
+    prove(taken);
+    if(!is_within_bound(found_))
+      found_ = std::move(first);
   }
 
   // Looks longer than before for positions closer to what was aimed at than those that were taken; most often proves that there are none.
@@ -292,7 +329,7 @@ private:
       return;
     const Candidate closest = choice_->closest(taken);
     if(closest.coefficients == taken.coefficients)
-      result_.tiling.is_closest = closest.is_closest;
+      found_.tiling.is_closest = closest.is_closest;
     else
       try_candidate(closest); // what is there is kept if this one inverts triangles
   }
@@ -301,7 +338,7 @@ private:
   double most_expected_distortion() const { return 1 + 1.5 * (options_.maximum_distortion - 1) + 1e-12; }
 
   // A layout that need not be deformed has a mean distortion of 1, up to rounding.
-  bool is_within_bound() const { return result_.tiling.mean_distortion <= (std::max)(options_.maximum_distortion, 1 + 1e-9); }
+  bool is_within_bound(const Found& f) const { return f.tiling.mean_distortion <= (std::max)(options_.maximum_distortion, 1 + 1e-9); }
 
   void refuse_inverted()
   {
@@ -334,9 +371,9 @@ private:
     if(!finish(std::move(z), positions, motion, s))
       return false;
     const Mean_factor deformation = deformation_factor(motion, unmended);
-    result_.tiling.is_closest = c.is_closest;
-    result_.tiling.mean_distortion = deformation.mean;
-    result_.tiling.maximum_distortion = deformation.largest;
+    found_.tiling.is_closest = c.is_closest;
+    found_.tiling.mean_distortion = deformation.mean;
+    found_.tiling.maximum_distortion = deformation.largest;
     return true;
   }
 
@@ -370,11 +407,12 @@ private:
     Layout<double> result;
     if(!seamless_(motion, z, result))
       return false;
-    translation_of_path_.assign(integral.begin() + cones_.size(), integral.end());
-    CGAL_postcondition(seamless_.is_seamless(motion, z, translation_of_path_));
-    result_.layout = std::move(result);
-    result_.cone_positions.assign(integral.begin(), integral.begin() + cones_.size());
-    scale_ = s;
+    found_.is_any = true;
+    found_.layout = std::move(result);
+    found_.cone_positions.assign(integral.begin(), integral.begin() + cones_.size());
+    found_.translation_of_path.assign(integral.begin() + cones_.size(), integral.end());
+    found_.scale = s;
+    CGAL_postcondition(seamless_.is_seamless(motion, z, found_.translation_of_path));
     return true;
   }
 
@@ -382,6 +420,9 @@ private:
 
   void report()
   {
+    result_.layout = std::move(found_.layout);
+    result_.tiling = found_.tiling;
+    result_.cone_positions = found_.cone_positions;
     result_.layout.length_error = flat_.length_error;
     result_.tiling.number_of_wound_vertices = seamless_.wound_vertices(result_.layout).size();
     find_transitions();
@@ -395,7 +436,7 @@ private:
       const Index h = t_.edge_halfedge(e);
       if(!cut_[e] || t_.is_border(h))
         continue;
-      const auto motion = polygon_.after(Meta_polygon::Values<std::int64_t>(), polygon_.crossing(h), translation_of_path_);
+      const auto motion = polygon_.after(Meta_polygon::Values<std::int64_t>(), polygon_.crossing(h), found_.translation_of_path);
       const Complex rotation = lattice_.rotation(motion.quanta), by = lattice_.to_plane(motion.translation);
       result_.layout.transitions.push_back({h, {{rotation.real(), rotation.imag()}}, {{by.real(), by.imag()}}});
       result_.quanta.push_back(motion.quanta);
@@ -408,8 +449,8 @@ private:
   void measure()
   {
     result_.tiling.symmetry = lattice_.symmetry();
-    result_.tiling.scale = std::abs(scale_) / normalized_->unit();
-    result_.tiling.rotation = std::remainder(std::arg(scale_), 2 * CGAL_PI);
+    result_.tiling.scale = std::abs(found_.scale) / normalized_->unit();
+    result_.tiling.rotation = std::remainder(std::arg(found_.scale), 2 * CGAL_PI);
     std::vector<Face_factor> before, after;
     double area = 0;
     for(Index f = 0; f < t_.number_of_faces(); ++f)
@@ -462,11 +503,10 @@ private:
   Seamless_layout seamless_;
 
   Rectified_layout result_;
+  Found found_;                       // the layout that was found last
   std::unique_ptr<Normalized_layout> normalized_; // set up once the polygon is known to be one
   Positions flat_z_;                  // by vertex, in its first corner: the normalized layout, without inverted triangles
   Position_lattice positions_;
-  Complex scale_ = 1;                 // by which the normalized layout was turned and scaled, in the layout taken
-  std::vector<Lattice_point> translation_of_path_; // the same
   std::vector<Index> fixed_;
   std::unique_ptr<Laplace_layout> laplace_;
   std::unique_ptr<Position_choice> choice_;

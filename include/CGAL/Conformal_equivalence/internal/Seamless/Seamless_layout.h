@@ -48,7 +48,14 @@ public:
   {}
 
   // Is a layout refused in which positive triangles go around a vertex once too often, or not often enough? (Those around it then count as inverted.)
-  void set_strict(bool is_strict) { is_strict_ = is_strict; }
+  void set_strict(bool is_strict)
+  {
+    is_strict_ = is_strict;
+    has_refused_wound_ = false;
+  }
+
+  // Was anything refused since for that reason alone?
+  bool has_refused_wound() const { return has_refused_wound_; }
 
   // Those vertices inside the surface: angles around them do not add up to what they should, but differ by full turns.
   std::vector<Index> wound_vertices(const Layout<double>& layout) const
@@ -109,7 +116,10 @@ private:
     }
     find_inverted(result);
     if(inverted_.empty() && is_strict_)
+    {
       add_triangles_around(wound_vertices(result));
+      has_refused_wound_ = has_refused_wound_ || !inverted_.empty();
+    }
     return inverted_.empty();
   }
 
@@ -200,7 +210,7 @@ private:
   const Texture_lattice& lattice_;
   const std::vector<Quantized_cone>& cones_;
   const bool is_lattice_coordinates_;
-  bool is_strict_ = false;
+  bool is_strict_ = false, has_refused_wound_ = false;
   std::vector<Index> inverted_;
 };
 

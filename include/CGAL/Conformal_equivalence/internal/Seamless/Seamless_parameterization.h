@@ -256,19 +256,17 @@ private:
 
   // ---- Handles
 
-  // In a conformal class the cones determine by how much handles turn: where that is no multiple of the quantum, the class is left.
+  // In a conformal class the cones determine by how much handles turn, and all borders but one: where that is no multiple of the quantum, the class
+  // is left.
   template <typename NamedParameters>
   void turn_handles(const NamedParameters& np)
   {
     Report& report = flattening.report;
     const std::vector<Prescribed_turning> prescribed = read_loop_turnings(flattening.mesh, np);
-    if(report.topology.number_of_borders != 0)
-    {
-      if(!prescribed.empty())
-        report.status = Status::WRONG_TOPOLOGY;
-      return;
-    }
-    if(report.topology.genus == 0 && prescribed.empty())
+    if(report.topology.number_of_borders != 0 && !prescribed.empty())
+      report.status = Status::WRONG_TOPOLOGY;
+    const bool has_loops = report.topology.genus != 0 || report.topology.number_of_borders > 1 || !prescribed.empty();
+    if(!bool(report) || !has_loops || !can_borders_turn())
       return;
     const Stopwatch stopwatch;
     try
@@ -286,6 +284,39 @@ private:
       report.status = Status::OUT_OF_MEMORY;
     }
     report.statistics.seconds.solve += stopwatch.seconds();
+  }
+
+  // Not where the metric is one of the double, or has vertices with bounds; nor where the angles prescribed make a border turn by no multiple: then
+  // the layout is refused for that.
+  bool can_borders_turn() const
+  {
+    const Intrinsic_triangulation<double>& t = flattening.mesh.triangulation;
+    std::vector<char> is_visited(t.number_of_halfedges(), 0);
+    bool result = !flattening.metric.is_doubled && !flattening.conditions().has_bounds();
+    for(Index h = 0; h < t.number_of_halfedges() && result; ++h)
+      if(t.is_border(h) && !is_visited[h])
+        result = can_border_turn(h, is_visited);
+    return result;
+  }
+
+  // Of the border that begins with a halfedge: vertices where u is prescribed are free to bend.
+  bool can_border_turn(Index first, std::vector<char>& is_visited) const
+  {
+    const Intrinsic_triangulation<double>& t = flattening.mesh.triangulation;
+    const Conformal_conditions<double>& conditions = flattening.conditions();
+    const double quantum = 2 * CGAL_PI / symmetry(), rounding = 1e-9;
+    double turning = 0;
+    bool is_free = false;
+    for(Index h = first; !is_visited[h]; h = t.next_on_border(h))
+    {
+      is_visited[h] = 1;
+      const Index v = t.target(h);
+      if(conditions.is_fixed(v))
+        is_free = true;
+      else
+        turning += CGAL_PI - conditions.angle_sum(v).template radians<double>();
+    }
+    return is_free || std::abs(std::remainder(turning, quantum)) < rounding;
   }
 
   void take(Conformal_metric<double> turned)

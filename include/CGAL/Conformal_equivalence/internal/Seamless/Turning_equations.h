@@ -9,8 +9,9 @@
 //     d alpha_i / d lambda_i = (cot alpha_j + cot alpha_k) / 2,
 //     d alpha_i / d lambda_j = -cot alpha_k / 2,    d alpha_i / d lambda_k = -cot alpha_j / 2.
 //
-// There are |V| - 1 + 2 g equations and |E| = 3 (|V| - 2 + 2 g) unknowns. Of all changes of lambda that solve the linearized equations
-// J d = -c we want the one that leaves the discrete conformal class the least: it minimizes
+// On a closed surface there are |V| - 1 + 2 g equations and |E| = 3 (|V| - 2 + 2 g) unknowns; on others, vertices of the border need have no
+// equations. Of all changes of lambda that solve the linearized equations J d = -c we want the one that leaves the discrete conformal class the
+// least: it minimizes
 //
 //     |Z d|^2 + epsilon |d|^2,
 //
@@ -48,6 +49,7 @@ struct Turning_targets
 {
   std::vector<double> angle_sum; // by vertex
   std::vector<double> turning;   // by loop
+  std::vector<char> is_free = {}; // by vertex: whether its angle sum may be any; empty: none is
 };
 
 // The angles of all corners, and their cotangents: by halfedge, at its origin.
@@ -80,19 +82,22 @@ inline std::vector<double> turnings(const Intrinsic_triangulation<double>& t, co
   return result;
 }
 
-// The rows of the equations: those of the vertices, all but one, as the angle sums have a fixed sum; then those of the loops.
+// The rows of the equations: those of the vertices that are not free, but one if none is, as the angle sums have a fixed sum; then those of the
+// loops.
 class Turning_rows
 {
 public:
   typedef std::uint32_t Index;
 
   // \pre `t` is connected
-  explicit Turning_rows(const Intrinsic_triangulation<double>& t) : row_of_vertex_(t.number_of_vertices(), t.null_index)
+  explicit Turning_rows(const Intrinsic_triangulation<double>& t, const std::vector<char>& is_free = std::vector<char>())
+    : row_of_vertex_(t.number_of_vertices(), t.null_index)
   {
+    const bool is_any_free = std::find(is_free.begin(), is_free.end(), char(1)) != is_free.end();
     for(Index v = 0; v < t.number_of_vertices(); ++v)
-      if(!t.is_isolated_vertex(v))
+      if(!t.is_isolated_vertex(v) && (is_free.empty() || !is_free[v]))
         vertices_.push_back(v);
-    if(!vertices_.empty())
+    if(!vertices_.empty() && !is_any_free)
       vertices_.pop_back();
     for(Index r = 0; r < vertices_.size(); ++r)
       row_of_vertex_[vertices_[r]] = r;

@@ -64,7 +64,7 @@ class Turning_newton
   typedef std::uint32_t Index;
 
 public:
-  // \pre the triangulation is closed and connected, and its lengths are positive
+  // \pre the triangulation is connected, and its lengths are positive
   Turning_newton(Intrinsic_triangulation<NT> t, Dual_loops loops, Turning_targets targets, const Turning_newton_options& options);
 
   Turning_metric run();
@@ -179,7 +179,7 @@ private:
 template <typename NT>
 Turning_newton<NT>::Turning_newton(Intrinsic_triangulation<NT> t, Dual_loops loops, Turning_targets targets,
                                    const Turning_newton_options& options)
-  : targets_(std::move(targets)), options_(options), rows_(t)
+  : targets_(std::move(targets)), options_(options), rows_(t, targets_.is_free)
 {
   metric_.triangulation = std::move(t);
   metric_.loops = std::move(loops);

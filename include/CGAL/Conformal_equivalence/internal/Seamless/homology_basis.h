@@ -1,11 +1,11 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A basis of the first homology of a closed surface: 2 g closed curves across edges (Dual_loops.h).
+// A basis of the first homology of a surface: 2 g closed curves across edges (Dual_loops.h), and b - 1 more if there are b borders.
 //
 // By a tree and a cotree (Eppstein, "Dynamic generators of topologically embedded graphs", 2003; Erickson and Whittlesey, "Greedy optimal homotopy
 // and homology generators", 2005): a spanning tree of the vertices, a spanning tree of the faces that crosses none of its edges; 2 g edges
-// are left, each of which closes one curve in the tree of the faces.
+// are left, each of which closes one curve in the tree of the faces. Trees of vertices begin at all border vertices at once, as if these were one.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_HOMOLOGY_BASIS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_HOMOLOGY_BASIS_H
@@ -21,19 +21,16 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The edges of a spanning tree of the vertices of each component, by breadth.
+// The edges of a spanning tree of the vertices of each component, by breadth, where all border vertices count as one.
 template <typename NT>
 std::vector<char> vertex_tree(const Intrinsic_triangulation<NT>& t)
 {
   typedef std::uint32_t Index;
   std::vector<char> is_in_tree(t.number_of_edges(), 0), is_reached(t.number_of_vertices(), 0);
-  std::vector<Index> reached;
-  for(Index root = 0; root < t.number_of_vertices(); ++root)
+  const auto grow = [&](std::vector<Index> reached)
   {
-    if(is_reached[root])
-      continue;
-    is_reached[root] = 1;
-    reached.assign(1, root);
+    for(Index root : reached)
+      is_reached[root] = 1;
     for(std::size_t k = 0; k < reached.size(); ++k)
       t.for_each_outgoing(reached[k], [&](Index h)
       {
@@ -43,7 +40,15 @@ std::vector<char> vertex_tree(const Intrinsic_triangulation<NT>& t)
         is_in_tree[t.edge(h)] = 1;
         reached.push_back(t.target(h));
       });
-  }
+  };
+  std::vector<Index> border;
+  for(Index v = 0; v < t.number_of_vertices(); ++v)
+    if(t.is_border_vertex(v))
+      border.push_back(v);
+  grow(std::move(border));
+  for(Index root = 0; root < t.number_of_vertices(); ++root)
+    if(!is_reached[root])
+      grow(std::vector<Index>(1, root));
   return is_in_tree;
 }
 
@@ -110,7 +115,7 @@ private:
   std::vector<char> is_crossed_;
 };
 
-// Linear time, and the sum of the lengths. \pre `t` is closed
+// Linear time, and the sum of the lengths. \pre `t` is closed, or connected
 template <typename NT>
 std::vector<std::vector<std::uint32_t> > homology_basis(const Intrinsic_triangulation<NT>& t)
 {
@@ -118,7 +123,7 @@ std::vector<std::vector<std::uint32_t> > homology_basis(const Intrinsic_triangul
   const Face_tree<NT> faces(t, is_in_tree);
   std::vector<std::vector<std::uint32_t> > result;
   for(std::uint32_t e = 0; e < t.number_of_edges(); ++e)
-    if(!is_in_tree[e] && !faces.is_crossed(e))
+    if(!is_in_tree[e] && !faces.is_crossed(e) && !t.is_border_edge(e))
       result.push_back(faces.loop(t.edge_halfedge(e)));
   return result;
 }
