@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <boost/graph/graph_traits.hpp>
@@ -194,6 +195,7 @@ inline std::string number_text(double x)
 
 // "; vertices 1, 2, 3": the first ten elements, each as `text_of_element` tells it.
 template <typename Range, typename Text>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 std::string elements_text(const char* singular, const char* plural, const Range& elements, Text text_of_element)
 {
   if(elements.empty())
@@ -208,6 +210,7 @@ std::string elements_text(const char* singular, const char* plural, const Range&
 }
 
 template <typename Index>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 std::string elements_text(const std::vector<Index>& vertices, const std::vector<std::array<Index, 2> >& edges,
                           const std::vector<Index>& faces)
 {
@@ -217,6 +220,7 @@ std::string elements_text(const std::vector<Index>& vertices, const std::vector<
          + elements_text("face", "faces", faces, number);
 }
 
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 inline std::string topology_text(const Surface_topology& topology)
 {
   const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s"); };
@@ -225,6 +229,7 @@ inline std::string topology_text(const Surface_topology& topology)
 }
 
 // What `amount` is, for the statuses that have one.
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 inline std::string amount_text(Status status, double amount)
 {
   const std::string number = number_text(amount);

@@ -31,6 +31,7 @@
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangulation/pieces.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 #include <CGAL/Conformal_equivalence/internal/solver_traits_of.h>
 #include <CGAL/Conformal_equivalence/named_parameters.h>
 #include <CGAL/Conformal_equivalence/options.h>
@@ -329,6 +330,7 @@ private:
   }
 
   // Names the seam at a piece that is no disk.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void refuse_cut(const Intrinsic_triangulation<NT>& open, const Surface_components& pieces, Index piece, Status no_disk)
   {
     const Intrinsic_triangulation<NT>& t = mesh.triangulation;
@@ -343,6 +345,7 @@ private:
   }
 
   // Names the cones inside of a piece.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void refuse_missed_cones(const Intrinsic_triangulation<NT>& open, const Surface_components& pieces, Index piece)
   {
     std::vector<Index> missed;

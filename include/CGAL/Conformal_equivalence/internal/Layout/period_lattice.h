@@ -10,6 +10,7 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 #include <CGAL/Conformal_equivalence/internal/stable_order.h>
 
 #include <algorithm>
@@ -81,6 +82,7 @@ class Reduced_basis
   static Complex minus(const Complex& a, const Complex& b, double times) { return {a.re - times * b.re, a.im - times * b.im}; }
 
   // Subtracts the vector of the lattice that is nearest, or nearly so.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   Complex reduced(Complex z) const
   {
     if(basis_.size() == 2)
@@ -101,6 +103,7 @@ class Reduced_basis
   }
 
   // Lagrange and Gauss: the shorter one first, the other as short as it can be.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void reduce_pair()
   {
     for(int step = 0; step < maximum_number_of_reduction_steps; ++step)
@@ -118,6 +121,7 @@ public:
   explicit Reduced_basis(double error) : error_(error) {}
 
   // Euclid's algorithm: what is left of the generator replaces the longest vector, which becomes the next generator.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void insert(Complex z)
   {
     for(int step = 0; step < maximum_number_of_reduction_steps; ++step)
@@ -143,6 +147,7 @@ public:
   bool is_complete() const { return basis_.size() == 2; }
 
   // The basis whose quotient is in the standard fundamental domain.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   std::pair<Complex, Complex> standard_basis() const
   {
     Complex a = basis_[0], b = basis_[1];
@@ -164,6 +169,7 @@ public:
 // The lattice that the motions across the cut edges of one torus generate; nothing if it has cones. `first_piece` is
 // the one whose coordinates count.
 template <typename NT>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 Reduced_basis<NT> period_basis(const std::vector<Cut_motion<NT> >& given, std::uint32_t first_piece, std::uint32_t number_of_pieces)
 {
   typedef Cut_motion<NT> Motion;

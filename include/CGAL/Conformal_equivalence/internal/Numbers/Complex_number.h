@@ -4,6 +4,8 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NUMBERS_COMPLEX_NUMBER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_NUMBERS_COMPLEX_NUMBER_H
 
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
+
 #include <cmath>
 
 namespace CGAL {
@@ -43,6 +45,7 @@ double size_of(const Complex_number<NT>& z) { return std::hypot(static_cast<doub
 
 // e^{i x}, by the Taylor series at x / 2^10 and ten squarings, which cost ten bits; for finite |x| < 1000 or so.
 template <typename NT>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 Complex_number<NT> unit_complex(const NT& x)
 {
   const NT z = x / 1024;

@@ -10,6 +10,7 @@
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <CGAL/enum.h>
 
@@ -28,6 +29,7 @@ class Exact_number
 public:
   Exact_number() { mpz_init(mantissa_); }
   /// the value of `x`, exactly. \pre `x` is finite
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   Exact_number(double x);
   /// `m` 2^`exponent`. \pre `m` is an integer
   Exact_number(double m, long exponent) : exponent_(exponent) { mpz_init_set_d(mantissa_, m); }
@@ -70,6 +72,7 @@ public:
   void apply(const Use& use) const { use(mpz_srcptr(mantissa_), exponent_); }
 
 private:
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   static Exact_number sum(const Exact_number& x, const Exact_number& y, void (*operation)(mpz_ptr, mpz_srcptr, mpz_srcptr));
 
   mpz_t mantissa_;
@@ -100,6 +103,7 @@ inline Exact_number Exact_number::sum(const Exact_number& x, const Exact_number&
   return result;
 }
 
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 inline Exact_number operator*(const Exact_number& x, const Exact_number& y)
 {
   Exact_number result;
@@ -108,6 +112,7 @@ inline Exact_number operator*(const Exact_number& x, const Exact_number& y)
   return result;
 }
 
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 inline double quotient(const Exact_number& x, const Exact_number& y)
 {
   // the numerator is shifted such that the integer quotient has 64 bits or more, of which 53 remain

@@ -10,6 +10,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <mpfr.h>
 
@@ -27,16 +28,19 @@ class Precise_number
 public:
   static constexpr int number_of_bits = 1024;
 
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   Precise_number(double x = 0)
   {
     mpfr_init2(x_, number_of_bits);
     mpfr_set_d(x_, x, MPFR_RNDN);
   }
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   explicit Precise_number(const Exact_number& x)
   {
     mpfr_init2(x_, number_of_bits);
     x.apply([this](mpz_srcptr m, long e) { mpfr_set_z_2exp(x_, m, e, MPFR_RNDN); });
   }
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   Precise_number(const Precise_number& x)
   {
     mpfr_init2(x_, number_of_bits);
@@ -78,6 +82,7 @@ public:
 private:
   typedef int (*Operation)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t);
 
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   static Precise_number result_of(Operation operation, const Precise_number& x, const Precise_number& y)
   {
     Precise_number result;
@@ -94,6 +99,7 @@ struct To_precise
 };
 
 // Doubles of which the sum is x, exactly, the largest first. \pre 1/2 <= |x| < 1
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 inline std::vector<double> parts(Precise_number x)
 {
   std::vector<double> result;

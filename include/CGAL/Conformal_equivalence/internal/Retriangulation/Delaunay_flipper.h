@@ -39,6 +39,7 @@
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/flipped_length.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <CGAL/assertions.h>
@@ -227,6 +228,15 @@ private:
     State result = State::WITHIN_BOUND;
     if(filtered_difference(quad<double>(t_, e, s, To_double()), d) && is_decided(d, bound, result))
       return result;
+    return state_by_more_digits(e, s, bound);
+  }
+
+  template <typename Scale>
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
+  State state_by_more_digits(Index e, const std::vector<Scale>& s, double bound)
+  {
+    Relative_difference d;
+    State result = State::WITHIN_BOUND;
     ++counts_.filter_failures;
     const bool has_all_digits = filtered_difference(quad<Double_double>(t_, e, s, To_double_double()), d);
     if(has_all_digits && is_decided(d, bound, result))

@@ -11,6 +11,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/flipped_length.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <algorithm>
 #include <array>
@@ -118,6 +119,7 @@ private:
   }
 
   // computes the length again, from those given, with 300 digits
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void renew(const std::array<Index, 5>& from, Flip_rule rule, Bounded_length<Wide>& f)
   {
     if(precise_.size() > 300000) // to limit the memory
@@ -157,6 +159,7 @@ private:
   }
 
   // writes the precise length of the node `last`, and of all that it comes from
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool evaluate(Index last)
   {
     std::vector<Index> stack(1, last);

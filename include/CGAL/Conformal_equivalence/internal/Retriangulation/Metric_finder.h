@@ -30,6 +30,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/feasibility.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/starting_point.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <CGAL/assertions.h>
@@ -157,6 +158,7 @@ private:
     return is_final;
   }
 
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void exchange_triangulation(Triangulation& other)
   {
     std::swap(triangulation_, other);
@@ -267,6 +269,7 @@ private:
   }
 
   // On the double, where border edges can be flipped, too. The unknowns are those of the surface.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void solve_on_double(Conditions conditions, const Solver_options& options, Metric& result)
   {
     options.visitor.on_stage(Stage::SOLVE);
@@ -324,6 +327,7 @@ private:
 
   // Gives the images of vertices their factors, too. Where the triangulation is not symmetric, as the diagonal of a trapezoid is
   // not, its lengths are symmetric up to rounding only; then so are the angle sums.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void unfold(const Folded_double<NT>& t, Folded_energy<NT>& energy, Conditions conditions, double tolerance, Metric& result) const
   {
     result.scale_factors = t.spread(result.scale_factors);
@@ -468,6 +472,7 @@ private:
   }
 
   // What `NT` cannot hold. If Newton's method has come to its end, u by itself is the metric nevertheless.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   static void tell_range(const Vertex_vector& u, bool is_found, Metric& result)
   {
     tell_extremes(u, result.statistics);

@@ -18,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/length_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
@@ -71,6 +72,7 @@ NT distance_from_point_of_side(const NT& jm, const NT& ml, const NT& jk, const N
 // Flips the longest edges of faces of no area until there are no such faces, but for those whose longest edge cannot be flipped, as on the border.
 // Returns the flips in order. Linear time if there are few.
 template <typename NT>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 std::vector<std::uint32_t> resolve_degenerate_faces(Intrinsic_triangulation<NT>& t)
 {
   std::vector<std::uint32_t> flips, suspects = degenerate_faces(t);
@@ -97,6 +99,7 @@ std::vector<std::uint32_t> resolve_degenerate_faces(Intrinsic_triangulation<NT>&
 
 // Tells a result, found on the triangulation that these flips have led to, that they came before all others.
 template <typename Result>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 void put_resolving_flips_first(const std::vector<std::uint32_t>& flips, Result& result)
 {
   result.flips.insert(result.flips.begin(), flips.begin(), flips.end());

@@ -11,6 +11,7 @@
 
 #include <CGAL/Conformal_equivalence/internal/Solver/Lower_bounds.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +79,7 @@ public:
   bool settle(Vertex_vector& u) const { return !bounds_.empty() && bounds_.settle(u); }
 
   // Makes u satisfy the bounds, by a change that is as harmonic as can be. \pre the energy was evaluated at u
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool lift(Vertex_vector& u)
   {
     const Vertex_vector no_residual(u.size(), 0.);
@@ -94,6 +96,7 @@ public:
   // where d = b - u. Beginning with the vertices held, those that violate one or the other change sides: all at once, as long as their number
   // reaches a new minimum within `patience` rounds, then one at a time, which cannot go round in circles. The limit on the rounds only
   // bounds the time: a step that has not reached its minimum still has to go downhill to be taken.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool step(const Vertex_vector& u, const Vertex_vector& r, double eta, Vertex_vector& d)
   {
     const int most_rounds = 200, patience = 10;
@@ -147,6 +150,7 @@ private:
   }
 
   // d = b - u where held, f = 0 elsewhere up to `error`.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool solve_held(const Vertex_vector& u, const Vertex_vector& r, double eta, Vertex_vector& d, Vertex_vector& f, double& error)
   {
     Vertex_vector held_step(u.size(), 0.);
@@ -171,6 +175,7 @@ private:
   }
 
   // In a component that rests on its bounds, the f of the vertices held have a positive sum: the largest one is right.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   std::vector<Index> on_wrong_side(const Vertex_vector& u, const Vertex_vector& d, const Vertex_vector& f, double error) const
   {
     std::vector<char> is_right(u.size(), 0);

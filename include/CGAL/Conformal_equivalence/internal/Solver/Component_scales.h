@@ -12,6 +12,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Lower_bounds.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <cmath>
 #include <cstddef>
@@ -123,6 +124,7 @@ public:
   }
 
   // Scales the components where the bounds determine nothing but the scale: the least that they allow.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void settle(const Conformal_conditions<NT>& conditions, std::vector<Wide_number>& s) const
   {
     std::vector<Wide_number> factor(pieces_.components.size(), Wide_number(0));

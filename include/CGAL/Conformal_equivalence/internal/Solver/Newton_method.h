@@ -25,6 +25,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Trust_region.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/line_search.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
@@ -301,6 +302,7 @@ private:
 
   // The factor for the trust region is that of the first metric again: a Hessian at broken triangles makes a
   // bad norm. Where no triangle is broken and little is left to do, it is rounding that keeps the line search from going on.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool begin_trust_region(Vertex_vector& u)
   {
     evaluate(u, residual_);
@@ -316,6 +318,7 @@ private:
 
   // A step of Newton-Steihaug. The decrease of 2 E is the integral of r along the step, by the trapezoidal rule. Every attempt that fails makes
   // the region at least four times smaller, which after `most_attempts` is less than u can be told apart.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool trust_region_step(Vertex_vector& u)
   {
     const int most_attempts = 60;

@@ -8,6 +8,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_TRUST_REGION_H
 
 #include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +31,7 @@ public:
 
   // A step for the residual r, solved for up to `eta`. Returns whether it goes downhill; one of length zero is as good where r is zero
   // at all vertices that are not held.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool find_step(const Vertex_vector& r, double eta, Vertex_vector& d)
   {
     Vertex_vector right = r;

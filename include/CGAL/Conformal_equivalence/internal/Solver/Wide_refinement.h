@@ -17,6 +17,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Lower_bounds.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Quadratic_model.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <algorithm>
 #include <cmath>
@@ -220,6 +221,7 @@ private:
 
   // The same with some of the bounds active, as the solution has them: where Newton's method could not tell by
   // rounding, the wide type does.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   void refine_within_bounds(double goal, Vertex_vector& u, Metric& result)
   {
     std::vector<char> active(u.size(), 0);
@@ -247,6 +249,7 @@ private:
   }
 
   // Activates the bounds that are violated, and releases those where the angle sum is too large. Returns whether there were any.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool exchange_bounds(const Metric& result, std::vector<char>& active) const
   {
     const double most = (std::max)(tolerance_, result.statistics.residual);

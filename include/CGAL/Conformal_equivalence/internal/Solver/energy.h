@@ -25,6 +25,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/Incircle_vectors.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <CGAL/number_type_config.h>
 
@@ -158,6 +159,7 @@ public:
   bool ranges_far() const { return !scale_exponent_.empty() || !length_exponent_.empty(); }
 
   // e^{u/2}, by vertex, whatever u is.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   std::vector<Scaled_number<NT> > scales_with_exponents() const
   {
     std::vector<Scaled_number<NT> > result;
@@ -254,6 +256,7 @@ private:
 
   // Multiplies sides by 2^`apart`, and all of them by a power of two that brings the longest near 1. What is as good as 0 beside it remains
   // positive.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   static void equalize(const std::array<int, 3>& apart, std::array<NT, 3>& sides)
   {
     using std::ldexp;

@@ -23,6 +23,7 @@
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <algorithm>
 #include <cmath>
@@ -191,6 +192,7 @@ Feasibility check_for_cones(const Surface_components& pieces, const std::vector<
 
 // The error of a component whose angles do not fit: the vertices that could be given others.
 template <typename NT>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 Feasibility unbalanced(const Intrinsic_triangulation<NT>& t, const Surface_components& pieces,
                        std::size_t c, const Angle_balance<NT>& balance)
 {
@@ -207,6 +209,7 @@ Feasibility unbalanced(const Intrinsic_triangulation<NT>& t, const Surface_compo
 
 // The error of a component whose angles leave nothing for the vertices where u is fixed or bounded.
 template <typename NT>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 Feasibility exhausted(const Angle_balance<NT>& balance)
 {
   Feasibility result;
@@ -220,6 +223,7 @@ Feasibility exhausted(const Angle_balance<NT>& balance)
 
 // Adds `left` to the targets of `vertices`, evenly; what rounding takes from one is added to the next ones.
 template <typename NT>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 void spread(const NT& left, const std::vector<std::uint32_t>& vertices, Conformal_conditions<NT>& conditions)
 {
   NT rest_left = left;

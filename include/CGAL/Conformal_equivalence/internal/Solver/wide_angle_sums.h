@@ -16,6 +16,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/Number_constants.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <algorithm>
 #include <cmath>
@@ -216,6 +217,7 @@ private:
     }
   }
 
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
   static void add_one(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, Sums& sums)
   {
     add_corners(t, f, length[t.edge(3 * f)], length[t.edge(3 * f + 1)], length[t.edge(3 * f + 2)], sums);

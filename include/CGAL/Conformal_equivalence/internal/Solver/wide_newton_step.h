@@ -11,6 +11,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Wide_factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -23,6 +24,7 @@ namespace internal {
 
 // A (see Edge_graph.h) for the weights `w` by edge, factorized; rows without weight, and those of held vertices, are those of the identity.
 template <typename Wide>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 Wide_factorization<Wide> factorize_wide_matrix(const Edge_graph& graph, const std::vector<Wide>& w)
 {
   typedef std::uint32_t Index;
@@ -53,6 +55,7 @@ Wide_factorization<Wide> factorize_wide_matrix(const Edge_graph& graph, const st
 
 // Multiplies `s` by e^{d / 2} for the step d, where the edges have the given weights. Returns whether the matrix could be factorized.
 template <typename Wide>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 bool add_wide_newton_step(const Edge_graph& graph, const std::vector<Wide>& weights, const Scaled_vector& residual, std::vector<Wide>& s)
 {
   using std::ldexp;
@@ -75,6 +78,7 @@ bool add_wide_newton_step(const Edge_graph& graph, const std::vector<Wide>& weig
 
 // The same, with the weights of the surface `t` for the factors `s`.
 template <typename Surface, typename Wide>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 bool add_wide_newton_step(const Surface& t, const Edge_graph& graph, const Scaled_vector& residual, std::vector<Wide>& s)
 {
   return add_wide_newton_step(graph, wide_weights<Wide>(t, s), residual, s);

@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <CGAL/enum.h>
 
@@ -129,6 +130,7 @@ int binary_exponent(const Scaled_number<NT>& x) { return int(x.exponent); }
 
 // The same with numbers out of the range of `Real`: of lengths, and of factors, the largest is brought near 1. Neither matters.
 template <typename Real, typename NT, typename Scale, typename Convert>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 Quad<Real> shifted_quad(const Intrinsic_triangulation<NT>& t, std::uint32_t e, const std::vector<Scale>& s, const Convert& convert)
 {
   int length = (std::numeric_limits<int>::min)(), factor = length;
@@ -162,6 +164,7 @@ bool is_in_filter_range(const Quad<Real>& q)
 
 // divides the lengths by one power of two, and the factors by another: neither matters
 template <typename Real>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 void scale_by_powers_of_two(Quad<Real>& q)
 {
   using std::ldexp;
@@ -177,6 +180,7 @@ void scale_by_powers_of_two(Quad<Real>& q)
 
 // The two sides, divided by a common power of two, of numbers of which the ratio is beyond the range of the filter.
 template <typename Real>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 std::pair<Real, Real> ptolemy_sides_by_exponents(const Quad<Scaled_number<Real> >& q)
 {
   const std::pair<Scaled_number<Real>, Scaled_number<Real> > sides = ptolemy_sides(q);
@@ -185,6 +189,7 @@ std::pair<Real, Real> ptolemy_sides_by_exponents(const Quad<Scaled_number<Real> 
 }
 
 template <typename Real>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 std::pair<Real, Real> ptolemy_sides_by_exponents(const Quad<Real>& q)
 {
   typedef Scaled_number<Real> Number;
@@ -228,6 +233,7 @@ inline bool filtered_difference(const Quad<Scaled_number<Double_double> >& q, Re
 }
 
 // the sign is exact, the value is rounded, never to 0
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 inline Relative_difference exact_difference(const Quad<Exact_number>& q)
 {
   const std::pair<Exact_number, Exact_number> sides = ptolemy_sides(q);

@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <algorithm>
 #include <array>
@@ -35,6 +36,7 @@ namespace internal {
 
 // (a c + b d) / e by mantissas and exponents: no intermediate result over- or underflows
 template <typename NT>
+CGAL_CONFORMAL_EQUIVALENCE_COLD
 NT ptolemy_length_by_exponents(const NT& a, const NT& b, const NT& c, const NT& d, const NT& e)
 {
   using std::ldexp;
