@@ -216,10 +216,10 @@ UV_map corner_map(Mesh& mesh, const CE::Imported_mesh<Mesh>& imported, const Uni
 }
 
 // What is prescribed. Borders are geodesics if nothing is said of them: their angles are those of a straight line.
-Conditions hyperbolic_conditions(const Options& options, const Given_surface& given, Mesh& mesh)
+Conditions hyperbolic_conditions(const Options& options, const Given_surface& given, Progress& progress, Mesh& mesh)
 {
   Conditions conditions(given, mesh);
-  set_conditions(options, mesh, given, conditions);
+  set_conditions(options, mesh, given, progress, conditions);
   if(std::none_of(options.given.begin(), options.given.end(), [](const Given_option& o) { return o.name == "boundary"; }))
     for(Vertex v : mesh.vertices())
       if(is_on_border(mesh, v))
@@ -280,8 +280,8 @@ void run_hyperbolic(const Options& options, Output_files& files, std::ostream& o
   const Stopwatch watch;
   Mesh mesh;
   const Given_surface given = read_surface(options.input, options.repair, mesh, options.format);
-  const Conditions conditions = hyperbolic_conditions(options, given, mesh);
   std::optional<Progress> progress(std::in_place, err, kind_of_progress(err, options.quiet));
+  const Conditions conditions = hyperbolic_conditions(options, given, *progress, mesh);
   Uniformization u = uniformization(options, conditions, mesh, *progress);
   if(! u)
     fail(options.input, ": ", explanation(given, u));
