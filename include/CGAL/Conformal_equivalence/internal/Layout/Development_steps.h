@@ -12,6 +12,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double_vector.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_angle_sums.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Wide_incircle_vectors.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
 #include <algorithm>
@@ -158,38 +159,30 @@ private:
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static void lay_out(Front& front, std::size_t k, std::integer_sequence<int, i...> all)
   {
     const Development_step* const step[] = {&front.steps[(std::min)(k + std::size_t(i), front.steps.size() - 1)]...};
-    Numbers side[3], tangent[3], s, r;
+    Numbers side[3], r;
     for(int j = 0; j < 3; ++j)
     {
       const Double_double* const l[] = {&front.length[step[i]->edges[j]]...};
       side[j].load({l[i]->hi...}, {l[i]->lo...});
     }
-    set_tangent(side[0], side[1], side[2], tangent[0]);
-    set_tangent(side[1], side[2], side[0], tangent[1]);
-    set_tangent(side[2], side[0], side[1], tangent[2]);
-    s.set_sum(side[0], side[1]);
-    s.set_sum(s, side[2]);
-    s.halve();
-    r.set_product(tangent[0], tangent[1]);
-    r.set_product(r, tangent[2]);
-    r.set_quotient(r, s);
-    const Vector zero = {}, one = zero + 1.;
-    const auto is_safe = (tangent[0].hi > 0.) & (tangent[1].hi > 0.) & (tangent[2].hi > 0.) & (s.hi < 1e250) & (r.hi > 1e-200) & (r.hi < 1e200);
-    const Vector plain = is_safe ? one : zero;
+    const Wide_incircle_vectors<bytes> triangle(side);
+    const Vector zero = {};
+    Vector plain;
+    triangle.set_plain(plain);
+    plain = triangle.s.hi < 1e250 ? plain : zero;
     double is_plain[lanes];
     std::memcpy(is_plain, &plain, sizeof(plain));
-    r.hi = is_safe ? r.hi : one;
-    r.set_root(r);
+    triangle.set_radius(plain, r);
 
     const Complex* const from[] = {&front.sides[step[i]->side].direction...};
     const Complex* const origin[] = {&front.position[step[i]->origin]...};
     Complex_vector direction, turn, beyond_next, to_apex, apex;
     direction.load(from, all);
     apex.load(origin, all);
-    turn.set_rotation(tangent[2], r);
+    turn.set_rotation(triangle.tangent[2], r);
     turn.im = {-turn.im.hi, -turn.im.lo};
     beyond_next.set_product(direction, turn);
-    turn.set_rotation(tangent[1], r);
+    turn.set_rotation(triangle.tangent[1], r);
     to_apex.set_product(direction, turn);
     r.set_product(side[2], to_apex.re);
     apex.re.set_sum(apex.re, r);
@@ -208,11 +201,6 @@ private:
       previous.write(i, front.next_sides[step.beyond_previous].direction);
     if(step.apex != step.none)
       place.write(i, front.position[step.apex]);
-  }
-
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_tangent(const Numbers& a, const Numbers& b, const Numbers& c, Numbers& result)
-  {
-    Wide_corner_vectors<bytes>::set_tangent(a, b, c, result);
   }
 };
 

@@ -15,6 +15,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double_vector.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Number_constants.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/Wide_incircle_vectors.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 #include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
@@ -165,18 +166,6 @@ public:
         corners[b - first].add(t, length, b * lanes + std::uint32_t(i), i, sums);
   }
 
-  // half of b + c - a, as excess() has it
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_tangent(const Numbers& a, const Numbers& b, const Numbers& c, Numbers& result)
-  {
-    const auto is_longer = (b.hi > c.hi) | ((b.hi == c.hi) & (b.lo > c.lo));
-    Numbers longer, shorter;
-    longer.select(is_longer, b, c);
-    shorter.select(is_longer, c, b);
-    result.set_difference(longer, a);
-    result.set_sum(result, shorter);
-    result.halve();
-  }
-
 private:
   // The scaled lengths of the sides k of the triangles from f on.
   template <int... i>
@@ -189,31 +178,21 @@ private:
 
   CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, Lanes)
   {
-    Numbers side[3], tangent[3], s, square, r;
+    Numbers side[3], r;
     for(std::uint32_t k = 0; k < 3; ++k)
       load_sides(t, length, 3 * f + k, side[k], Lanes());
-    set_tangent(side[0], side[1], side[2], tangent[0]);
-    set_tangent(side[1], side[2], side[0], tangent[1]);
-    set_tangent(side[2], side[0], side[1], tangent[2]);
-    s.set_sum(side[0], side[1]);
-    s.set_sum(s, side[2]);
-    s.halve();
-    square.set_product(tangent[0], tangent[1]);
-    square.set_product(square, tangent[2]);
-    square.set_quotient(square, s);
-
-    const Vector zero = {}, one = zero + 1., unit = 1. / s.hi;
-    const auto is_safe = (tangent[0].hi > 0.) & (tangent[1].hi > 0.) & (tangent[2].hi > 0.) & (square.hi > 1e-200) & (square.hi < 1e200);
-    const Vector plain = is_safe ? one : zero;
+    Wide_incircle_vectors<bytes> triangle(side);
+    const Vector unit = 1. / triangle.s.hi;
+    Vector plain;
+    triangle.set_plain(plain);
     std::memcpy(is_plain_, &plain, sizeof(plain));
-    square.hi = is_safe ? square.hi : one;
-    r.set_root(square);
+    triangle.set_radius(plain, r);
     r.set_product(r, unit);
     r.store(y_hi_, y_lo_);
     for(int k = 0; k < 3; ++k)
     {
-      tangent[k].set_product(tangent[k], unit);
-      tangent[k].store(x_hi_[k], x_lo_[k]);
+      triangle.tangent[k].set_product(triangle.tangent[k], unit);
+      triangle.tangent[k].store(x_hi_[k], x_lo_[k]);
     }
   }
 
