@@ -10,12 +10,10 @@
 #
 # From the environment: CXX (default g++), CXXFLAGS (default -O2), ROUNDS (default 3).
 
-set -eu
+source "$(dirname "$0")/../lib/tables.sh"
+set -e
 
-if [ $# -gt 1 ]; then
-  sed -n '5,12s/^# \{0,1\}//p' "$0" >&2
-  exit 2
-fi
+check_number_of_arguments 0 1 "$@"
 table=${1:-compilation.md}
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../../.." && pwd)

@@ -10,22 +10,18 @@
 # --full on terrains of 10 000 to 160 000 vertices, in a minute; with it up to 4 000 000. The factorization of CHOLMOD, ordered by METIS, to which
 # seconds are compared is measured in the same process, right before. CGAL_DATA_DIR names the folder that holds CGAL's meshes/.
 
-set -u
+source "$(dirname "$0")/../lib/tables.sh"
 
 full=
 if [ "${1:-}" = --full ]; then
   full=1
   shift
 fi
-if [ $# -lt 1 ] || [ $# -gt 2 ]; then
-  sed -n '5,12s/^# \{0,1\}//p' "$0" >&2
-  exit 2
-fi
+check_number_of_arguments 1 2 "$@"
 program=$(realpath "$1")
 flatten_mesh=${2:+$(realpath "$2")}
-meshes=${CGAL_DATA_DIR:?must name the folder that holds CGAL\'s meshes/}/meshes
+meshes=$(folder_of_meshes) || exit
 sizes="10000 40000 160000${full:+ 640000 1000000 4000000}"
-export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -12,22 +12,18 @@
 # holds CGAL's meshes/. From the environment too: METHODS, TIME_LIMIT (processor seconds of one process,
 # default 600), MEMORY_LIMIT (GB of one process, default 8), OMP_NUM_THREADS and OPENBLAS_NUM_THREADS (default 1).
 
-set -u
+source "$(dirname "$0")/../lib/tables.sh"
 
 full=
 if [ "${1:-}" = --full ]; then
   full=1
   shift
 fi
-if [ $# -lt 1 ] || [ $# -gt 2 ]; then
-  sed -n '5,15s/^# \{0,1\}//p' "$0" >&2
-  exit 2
-fi
+check_number_of_arguments 1 2 "$@"
 program=$(realpath "$1")
 table=${2:-benchmark.md}
-meshes=${CGAL_DATA_DIR:?must name the folder that holds CGAL\'s meshes/}/meshes
+meshes=$(folder_of_meshes) || exit
 methods=${METHODS:-baseline ours ours-simplicial lscm arap dcm}
-export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 ulimit -S -t "${TIME_LIMIT:-600}"
 ulimit -v $((${MEMORY_LIMIT:-8} * 1024 * 1024))
 

@@ -11,33 +11,24 @@
 # holds CGAL's meshes/. From the environment too: TIME_LIMIT (seconds of one process, default 300), OMP_NUM_THREADS and
 # OPENBLAS_NUM_THREADS (default 1).
 
-set -u
+source "$(dirname "$0")/../lib/tables.sh"
 
 all=
 if [ "${1:-}" = --all ]; then
   all=1
   shift
 fi
-if [ $# -lt 1 ] || [ $# -gt 2 ]; then
-  sed -n '5,12s/^# \{0,1\}//p' "$0" >&2
-  exit 2
-fi
+check_number_of_arguments 1 2 "$@"
 program=$(realpath "$1")
 table=${2:-paper_table.md}
-meshes=${CGAL_DATA_DIR:?must name the folder that holds CGAL\'s meshes/}/meshes
-export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
+meshes=$(folder_of_meshes) || exit
 
 print_rows() # NAME ARGUMENT...
 {
   name=$1
   shift
-  timeout "${TIME_LIMIT:-300}" "$program" "$@" >> "$table" 2> /dev/null
-  case $? in
-    0 | 2) ;; # what is no mesh, or of another kind, gives no row
-    1) printf '| %s | exception |\n' "$name" >> "$table" ;;
-    124) printf '| %s | out of time |\n' "$name" >> "$table" ;;
-    *) printf '| %s | crashed |\n' "$name" >> "$table" ;;
-  esac
+  add_rows "$name" "$program" "$@"
+  [ $? != 1 ] || printf '| %s | exception |\n' "$name" >> "$table" # (2: what is no mesh, or of another kind, gives no row)
 }
 
 "$program" --header > "$table"

@@ -9,25 +9,19 @@
 # PROGRAM is the built `quality`; TABLE is quality.md unless given. CGAL_DATA_DIR names the
 # folder that holds CGAL's meshes/. TIME_LIMIT: seconds of one process, default 300.
 
-set -u
+source "$(dirname "$0")/../lib/tables.sh"
 
-if [ $# -lt 1 ] || [ $# -gt 2 ]; then
-  sed -n '5,10s/^# \{0,1\}//p' "$0" >&2
-  exit 2
-fi
+check_number_of_arguments 1 2 "$@"
 program=$(realpath "$1")
 table=${2:-quality.md}
-meshes=${CGAL_DATA_DIR:?must name the folder that holds CGAL\'s meshes/}/meshes
+meshes=$(folder_of_meshes) || exit
 
 "$program" --header > "$table"
 for mesh in "$meshes"/*.off; do
   for method in ours lscm arap dcm; do
-    timeout "${TIME_LIMIT:-300}" "$program" "$mesh" "$method" >> "$table" 2> /dev/null
+    add_rows "$(basename "$mesh" .off) | | $method" "$program" "$mesh" "$method"
     case $? in
-      0) ;;
       1 | 2) break ;; # cannot be read, or is no disk
-      124) printf '| %s | | %s | out of time | | | | | | | |\n' "$(basename "$mesh" .off)" "$method" >> "$table" ;;
-      *) printf '| %s | | %s | crashed | | | | | | | |\n' "$(basename "$mesh" .off)" "$method" >> "$table" ;;
     esac
   done
 done

@@ -10,28 +10,20 @@
 # CGAL_DATA_DIR names the folder that holds CGAL's meshes/. From the environment too: GROUPS_TO_RUN (default: all), TIME_LIMIT
 # (seconds of one group in one mode, default 600), OMP_NUM_THREADS and OPENBLAS_NUM_THREADS (default 1).
 
-set -u
+source "$(dirname "$0")/../lib/tables.sh"
 
-if [ $# -lt 1 ] || [ $# -gt 3 ]; then
-  sed -n '5,11s/^# \{0,1\}//p' "$0" >&2
-  exit 2
-fi
+check_number_of_arguments 1 3 "$@"
 program=$(realpath "$1")
 table=${2:-robustness.md}
 failures=${3:-robustness_failures.txt}
-: "${CGAL_DATA_DIR:?must name the folder that holds CGAL\'s meshes/}"
-export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
+folder_of_meshes > /dev/null || exit
 
 "$program" --header > "$table"
+messages=$failures
 : > "$failures"
 for group in ${GROUPS_TO_RUN:-$("$program" --list)}; do
   for mode in when-needed always; do
-    timeout "${TIME_LIMIT:-600}" "$program" "$group" "$mode" >> "$table" 2>> "$failures"
-    case $? in
-      0) ;;
-      1) printf '| %s | %s | cannot be run |\n' "$group" "$mode" >> "$table" ;;
-      124) printf '| %s | %s | out of time |\n' "$group" "$mode" >> "$table" ;;
-      *) printf '| %s | %s | crashed |\n' "$group" "$mode" >> "$table" ;;
-    esac
+    TIME_LIMIT=${TIME_LIMIT:-600} add_rows "$group | $mode" "$program" "$group" "$mode"
+    [ $? != 1 ] || printf '| %s | %s | cannot be run |\n' "$group" "$mode" >> "$table"
   done
 done

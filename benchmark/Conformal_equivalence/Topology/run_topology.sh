@@ -10,34 +10,25 @@
 # are compared with factorizations, too (half a minute). CGAL_DATA_DIR names the folder that holds CGAL's meshes/. From the
 # environment too: TIME_LIMIT (seconds of one process, default 300), OMP_NUM_THREADS and OPENBLAS_NUM_THREADS (default 1).
 
-set -u
+source "$(dirname "$0")/../lib/tables.sh"
 
 full=
 if [ "${1:-}" = --full ]; then
   full=1
   shift
 fi
-if [ $# -lt 1 ] || [ $# -gt 2 ]; then
-  sed -n '5,12s/^# \{0,1\}//p' "$0" >&2
-  exit 2
-fi
+check_number_of_arguments 1 2 "$@"
 program=$(realpath "$1")
 table=${2:-topology.md}
-meshes=${CGAL_DATA_DIR:?must name the folder that holds CGAL\'s meshes/}/meshes
-export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
+meshes=$(folder_of_meshes) || exit
 
 # run MESH [OPTION...]: one row
 run()
 {
   local mesh=$1
   shift
-  timeout "${TIME_LIMIT:-300}" "$program" "$@" "$meshes/$mesh.off" >> "$table"
-  case $? in
-    0) ;;
-    1) printf '| %s | cannot be run |\n' "$mesh" >> "$table" ;;
-    124) printf '| %s | out of time |\n' "$mesh" >> "$table" ;;
-    *) printf '| %s | crashed |\n' "$mesh" >> "$table" ;;
-  esac
+  add_rows "$mesh" "$program" "$@" "$meshes/$mesh.off"
+  [ $? != 1 ] || printf '| %s | cannot be run |\n' "$mesh" >> "$table"
 }
 
 "$program" --header > "$table"
