@@ -16,6 +16,7 @@
 //                          [INPUT...]         run these inputs of either driver instead
 
 #include "include/check_flattening.h"
+#include "include/tolerances.h"
 
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/flatten_mesh.h"
 #include "../../examples/Conformal_equivalence/include/flatten_mesh/messages.h"
@@ -382,7 +383,7 @@ inline std::string fault_of_sphere(const checking::Surface& s)
   for(const auto& p : s.points)
   {
     const double r = std::hypot(from_centre(p[0]), from_centre(p[1]), p[2]);
-    if(! (r == 0 || std::abs(r - 1) < 1e-13))
+    if(! (r == 0 || std::abs(r - 1) < testing::rounded_spheres_side_by_side))
       return "a point is off the sphere";
   }
   return "";

@@ -37,6 +37,9 @@ constexpr double layout_angle = 1e-11;
 // and there are some hundred from one end to the other.
 constexpr double rounded_layout = 1e-13;
 
+// Distances from the centre of a unit sphere, of spheres side by side: each point is moved by up to some hundred, and rounded there.
+constexpr double rounded_spheres_side_by_side = 1000 * unit_roundoff;
+
 // Of layouts that come from the whole program, whose files have all digits. Radians; relative, for lengths and areas: each of the some hundred
 // triangles on the way from one end of the layout to another may be off by the solver's tolerance, and passes it on.
 constexpr double summed_residuals = 100 * solver_tolerance;
