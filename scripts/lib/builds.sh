@@ -4,7 +4,7 @@
 # Builds and runs of tests, shared by scripts/test and .ci/run. After lib/common.sh.
 
 all_on=(-DCONFORMAL_EQUIVALENCE_WITH_{CHOLMOD,METIS,TBB,JSON}=ON)
-all_off=(-DCONFORMAL_EQUIVALENCE_WITH_{CHOLMOD,METIS,TBB,JSON,BENCHMARK}=OFF) # used by name in scripts/test
+all_off=(-DCONFORMAL_EQUIVALENCE_WITH_{CHOLMOD,METIS,TBB,JSON,BENCHMARK}=OFF) # used by name in scripts/test, as the other one
 
 # configure NAME PRESET OPTION...: of a build in build/NAME; prints what was found
 configure()
