@@ -296,12 +296,16 @@ void Multifrontal_factor<Number>::forward()
     forward(symbolic.supernodes[s], symbolic.size(), spaces_.back());
 }
 
-// One supernode. Rows from `end_column` on are in the top, which groups do not touch.
+// One supernode. Rows from `end_column` on are in the top, which groups do not touch. Where the right side is zero but for one entry, all but the
+// way from there to the root stays zero, and is left out.
 template <typename Number>
 void Multifrontal_factor<Number>::forward(const Supernode& node, int end_column, Workspace& space)
 {
   const int* const rows = symbolic_->rows.data() + node.first_row;
   const int columns = node.number_of_columns;
+  const auto right_side = x_.begin() + node.first_column;
+  if(std::all_of(right_side, right_side + columns, [](Number entry) { return entry == 0; }))
+    return;
   Number* const x = space.front.data();
   std::copy_n(x_.data() + node.first_column, columns, x);
   std::fill_n(x + columns, node.number_of_rows + Front::overhang, Number(0));
