@@ -17,10 +17,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -88,7 +86,7 @@ public:
   std::vector<Surface_point> surface_points(const std::array<NT, 2>& uv) const
   {
     std::vector<Surface_point> result;
-    tree_.for_each_around(static_cast<double>(uv[0]), static_cast<double>(uv[1]), [&](Index f)
+    tree_.for_each_around({{ static_cast<double>(uv[0]), static_cast<double>(uv[1]) }}, [&](Index f)
     {
       Cells cell;
       add_cell(f, cell);
@@ -101,21 +99,15 @@ public:
 private:
   typedef internal::Projective_cells<NT, NT> Cells;
 
-  static std::vector<std::array<double, 4> > boxes(const Common_refinement<NT>& r)
+  static std::vector<internal::Box<2> > boxes(const Common_refinement<NT>& r)
   {
-    std::vector<std::array<double, 4> > result;
-    const double infinity = std::numeric_limits<double>::infinity();
+    std::vector<internal::Box<2> > result;
     for(Index f = 0; f < r.number_of_faces(); ++f)
     {
-      std::array<double, 4> box = {{ infinity, infinity, -infinity, -infinity }};
+      internal::Box<2> box = internal::Box<2>::empty();
       for(std::size_t c = r.first_corner[f]; c < r.first_corner[f + 1]; ++c)
-        for(std::size_t k = 0; k < 2; ++k)
-        {
-          box[k] = (std::min)(box[k], static_cast<double>(r.corner_uv[c][k]));
-          box[k + 2] = (std::max)(box[k + 2], static_cast<double>(r.corner_uv[c][k]));
-        }
-      const bool is_finite = std::isfinite(box[0]) && std::isfinite(box[1]) && std::isfinite(box[2]) && std::isfinite(box[3]);
-      result.push_back(is_finite ? box : std::array<double, 4>{{ 0, 0, -1, -1 }}); // which contains nothing
+        box.insert({{ static_cast<double>(r.corner_uv[c][0]), static_cast<double>(r.corner_uv[c][1]) }});
+      result.push_back(box);
     }
     return result;
   }
@@ -130,7 +122,7 @@ private:
 
   const Intrinsic_triangulation<NT>* input_;
   const Common_refinement<NT>* refinement_;
-  internal::Box_tree tree_;
+  internal::Box_tree<2> tree_;
   std::vector<std::size_t> first_part_; // by face of the input, into `part_`
   std::vector<Index> part_;             // the faces of the refinement, by face of the input
 };

@@ -228,7 +228,7 @@ public:
     CGAL_precondition(bool(*this));
     std::vector<Surface_point> result;
     const double x = static_cast<double>(uv[0]), y = static_cast<double>(uv[1]);
-    tree_->for_each_around(x, y, [&](Index f)
+    tree_->for_each_around({{ x, y }}, [&](Index f)
     {
       if(!strips_[f].is_between(x, y))
         return;
@@ -292,7 +292,7 @@ private:
     layout_.emplace(*input_, *metric_, cut, size_, frame);
     weights_ = internal::vertex_weights(*metric_);
     find_strips();
-    std::vector<std::array<double, 4> > boxes;
+    std::vector<internal::Box<2> > boxes;
     boxes.reserve(strips_.size());
     for(const internal::Bounding_strip& strip : strips_)
       boxes.push_back(strip.box());
@@ -410,7 +410,7 @@ private:
   std::optional<internal::Overlay_layout<NT> > layout_;
   std::vector<Wide> weights_;                                     // by vertex
   std::vector<internal::Bounding_strip> strips_;                  // by face of the surface given
-  std::optional<internal::Box_tree> tree_;                        // of their boxes
+  std::optional<internal::Box_tree<2> > tree_;                    // of their boxes
 };
 
 } // namespace Conformal_equivalence

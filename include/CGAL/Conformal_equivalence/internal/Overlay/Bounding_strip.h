@@ -4,6 +4,8 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_OVERLAY_BOUNDING_STRIP_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_OVERLAY_BOUNDING_STRIP_H
 
+#include <CGAL/Conformal_equivalence/internal/Overlay/Box.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +22,7 @@ class Bounding_strip
 {
   static constexpr double infinity_ = std::numeric_limits<double>::infinity();
 
-  std::array<double, 4> box_ = {{ infinity_, infinity_, -infinity_, -infinity_ }};
+  Box<2> box_ = Box<2>::empty();
   std::array<double, 2> normal_ = {{ 0, 0 }};         // of the parallels; 0 if there are none
   double low_ = infinity_, high_ = -infinity_;
 
@@ -52,20 +54,12 @@ public:
   {
     if(!std::isfinite(p[0]) || !std::isfinite(p[1]))
       return;
-    for(std::size_t k = 0; k < 2; ++k)
-    {
-      box_[k] = (std::min)(box_[k], p[k]);
-      box_[k + 2] = (std::max)(box_[k + 2], p[k]);
-    }
+    box_.insert(p);
     low_ = (std::min)(low_, height(p[0], p[1]) - error(p[0], p[1]));
     high_ = (std::max)(high_, height(p[0], p[1]) + error(p[0], p[1]));
   }
 
-  // Least x and y, greatest x and y.
-  std::array<double, 4> box() const
-  {
-    return box_[0] <= box_[2] ? box_ : std::array<double, 4>{{ 0, 0, -1, -1 }}; // which contains nothing
-  }
+  const Box<2>& box() const { return box_; }
 
   // Is the point between the parallels?
   bool is_between(double x, double y) const

@@ -4,10 +4,12 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_OVERLAY_BOX_TREE_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_OVERLAY_BOX_TREE_H
 
+#include <CGAL/Conformal_equivalence/internal/Overlay/Box.h>
+
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -15,28 +17,31 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The boxes that hold a point of the plane: a binary tree over boxes, each half as many as above.
+// The boxes that hold a point: a binary tree over boxes, each half as many as above. One that is not finite holds none.
+template <std::size_t dimension>
 class Box_tree
 {
-  typedef std::array<double, 4> Box; // least x and y, greatest x and y
-  std::vector<Box> boxes_;           // by element
-  std::vector<Box> node_;            // the range [begin, end) has the node (begin + end) / 2: no two ranges have the same
-  std::vector<std::uint32_t> order_;
+  typedef internal::Box<dimension> Box;
+  typedef typename Box::Point Point;
 
 public:
-  explicit Box_tree(std::vector<Box> boxes) : boxes_(std::move(boxes)), node_(boxes_.size()), order_(boxes_.size())
+  explicit Box_tree(std::vector<Box> boxes = std::vector<Box>()) : boxes_(std::move(boxes)), node_(boxes_.size()), order_(boxes_.size())
   {
-    for(std::uint32_t i = 0; i < order_.size(); ++i)
-      order_[i] = i;
+    for(Box& box : boxes_)
+      if(!box.is_finite()) // could not be compared
+      {
+        box.low.fill(0);
+        box.high.fill(-1);
+      }
+    std::iota(order_.begin(), order_.end(), 0);
     if(!order_.empty())
       build(0, order_.size());
   }
 
   template <typename Visit>
-  void for_each_around(double x, double y, Visit visit) const
+  void for_each_around(const Point& p, Visit visit) const
   {
-    if(!order_.empty())
-      find(0, order_.size(), x, y, visit);
+    find(0, order_.size(), p, visit);
   }
 
 private:
@@ -44,10 +49,11 @@ private:
   {
     Box all = boxes_[order_[begin]];
     for(std::size_t i = begin + 1; i < end; ++i)
-      all = united(all, boxes_[order_[i]]);
-    const std::size_t middle = (begin + end) / 2, axis = all[2] - all[0] < all[3] - all[1] ? 1 : 0;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](std::uint32_t i, std::uint32_t j)
-      { return boxes_[i][axis] + boxes_[i][axis + 2] < boxes_[j][axis] + boxes_[j][axis + 2]; });
+      all.unite(boxes_[order_[i]]);
+    const std::size_t middle = (begin + end) / 2, axis = all.longest_axis();
+    const auto at = [&](std::size_t i) { return order_.begin() + std::ptrdiff_t(i); };
+    std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t i, std::uint32_t j)
+      { return boxes_[i].low[axis] + boxes_[i].high[axis] < boxes_[j].low[axis] + boxes_[j].high[axis]; });
     node_[middle] = all;
     if(begin < middle)
       build(begin, middle);
@@ -57,23 +63,20 @@ private:
   }
 
   template <typename Visit>
-  void find(std::size_t begin, std::size_t end, double x, double y, Visit& visit) const
+  void find(std::size_t begin, std::size_t end, const Point& p, Visit& visit) const
   {
     const std::size_t middle = (begin + end) / 2;
-    if(begin == end || !contains(node_[middle], x, y))
+    if(begin == end || !node_[middle].contains(p))
       return;
-    if(contains(boxes_[order_[middle]], x, y))
+    if(boxes_[order_[middle]].contains(p))
       visit(order_[middle]);
-    find(begin, middle, x, y, visit);
-    find(middle + 1, end, x, y, visit);
+    find(begin, middle, p, visit);
+    find(middle + 1, end, p, visit);
   }
 
-  static Box united(const Box& a, const Box& b)
-  {
-    return {{ (std::min)(a[0], b[0]), (std::min)(a[1], b[1]), (std::max)(a[2], b[2]), (std::max)(a[3], b[3]) }};
-  }
-
-  static bool contains(const Box& b, double x, double y) { return b[0] <= x && x <= b[2] && b[1] <= y && y <= b[3]; }
+  std::vector<Box> boxes_;           // by element
+  std::vector<Box> node_;            // the range [begin, end) has the node (begin + end) / 2: no two ranges have the same
+  std::vector<std::uint32_t> order_;
 };
 
 } // namespace internal

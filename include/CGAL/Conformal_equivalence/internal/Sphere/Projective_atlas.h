@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Common_refinement.h>
 #include <CGAL/Conformal_equivalence/internal/Sphere/Ideal_polyhedron.h>
+#include <CGAL/Conformal_equivalence/internal/Overlay/Box_tree.h>
 #include <CGAL/Conformal_equivalence/internal/Overlay/projective_cell.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/sphere_predicates.h>
 
@@ -67,116 +68,29 @@ inline std::array<double, 3> rounded_vector(const Wide_vector& p)
   return {{ static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]) }};
 }
 
-// The triangles of the sphere that a direction may be in: a binary tree of boxes in space, as Box_tree in the plane. A triangle
-// of great arcs is in the box of its corners, but for what it stands out of the flat one, of which the points are at least sqrt(1
-// - L^2 / 3) away from the origin, L its longest side.
-class Direction_tree
+// A box of the directions in a triangle of the sphere, given by three vectors almost of length 1. A triangle of great arcs is in the box of its
+// corners, but for what it stands out of the flat one, of which the points are at least sqrt(1 - L^2 / 3) away from the origin, L its longest side.
+inline Box<3> box_of_directions(const std::array<std::array<double, 3>, 3>& p)
 {
-public:
-  typedef std::array<double, 3> Vector;
-
-  Direction_tree() = default;
-
-  // `corners(i)`: of the i-th triangle of n, three vectors, almost of length 1
-  template <typename Corners>
-  Direction_tree(std::uint32_t n, Corners corners) : node_(n)
+  Box<3> result = { p[0], p[0] };
+  double longest = 0; // squared
+  for(std::size_t k = 0; k < 3; ++k)
   {
-    for(std::uint32_t i = 0; i < n; ++i)
-    {
-      boxes_.push_back(box(corners(i)));
-      order_.push_back(i);
-    }
-    if(n > 0)
-      build(0, n);
-  }
-
-  // Calls `visit(i)` for the triangles that may hold the direction of `p`, a vector almost of length 1, and maybe others.
-  template <typename Visit>
-  void for_each_around(const Vector& p, Visit visit) const
-  {
-    if(!order_.empty())
-      find(0, order_.size(), p, visit);
-  }
-
-private:
-  struct Box
-  {
-    Vector low, high;
-
-    bool contains(const Vector& p) const
-    {
-      return low[0] <= p[0] && p[0] <= high[0] && low[1] <= p[1] && p[1] <= high[1] && low[2] <= p[2] && p[2] <= high[2];
-    }
-
-    void insert(const Box& b)
-    {
-      for(std::size_t i = 0; i < 3; ++i)
-      {
-        low[i] = (std::min)(low[i], b.low[i]);
-        high[i] = (std::max)(high[i], b.high[i]);
-      }
-    }
-  };
-
-  static Box box(const std::array<Vector, 3>& p)
-  {
-    Box result = { p[0], p[0] };
-    double longest = 0; // squared
-    for(std::size_t k = 0; k < 3; ++k)
-    {
-      result.insert({ p[k], p[k] });
-      double square = 0;
-      for(std::size_t i = 0; i < 3; ++i)
-        square += (p[(k + 1) % 3][i] - p[k][i]) * (p[(k + 1) % 3][i] - p[k][i]);
-      longest = (std::max)(longest, square);
-    }
-    // 1 - sqrt(1 - L^2 / 3) at most, and rounding
-    const double margin = (std::min)(longest / 3, 1.) + 32 * std::numeric_limits<double>::epsilon();
+    result.insert(p[k]);
+    double square = 0;
     for(std::size_t i = 0; i < 3; ++i)
-    {
-      result.low[i] -= margin;
-      result.high[i] += margin;
-    }
-    return result;
+      square += (p[(k + 1) % 3][i] - p[k][i]) * (p[(k + 1) % 3][i] - p[k][i]);
+    longest = (std::max)(longest, square);
   }
-
-  // The range [begin, end) has the node (begin + end) / 2: no two ranges have the same.
-  Box build(std::size_t begin, std::size_t end)
+  // 1 - sqrt(1 - L^2 / 3) at most, and rounding
+  const double margin = (std::min)(longest / 3, 1.) + 32 * std::numeric_limits<double>::epsilon();
+  for(std::size_t i = 0; i < 3; ++i)
   {
-    Box all = boxes_[order_[begin]];
-    for(std::size_t i = begin + 1; i < end; ++i)
-      all.insert(boxes_[order_[i]]);
-    std::size_t axis = 0;
-    for(std::size_t i = 1; i < 3; ++i)
-      if(all.high[i] - all.low[i] > all.high[axis] - all.low[axis])
-        axis = i;
-    const std::size_t middle = (begin + end) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + std::ptrdiff_t(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t i, std::uint32_t j)
-      { return boxes_[i].low[axis] + boxes_[i].high[axis] < boxes_[j].low[axis] + boxes_[j].high[axis]; });
-    node_[middle] = all;
-    if(begin < middle)
-      build(begin, middle);
-    if(middle + 1 < end)
-      build(middle + 1, end);
-    return all;
+    result.low[i] -= margin;
+    result.high[i] += margin;
   }
-
-  template <typename Visit>
-  void find(std::size_t begin, std::size_t end, const Vector& p, Visit& visit) const
-  {
-    const std::size_t middle = (begin + end) / 2;
-    if(begin == end || !node_[middle].contains(p))
-      return;
-    if(boxes_[order_[middle]].contains(p))
-      visit(order_[middle]);
-    find(begin, middle, p, visit);
-    find(middle + 1, end, p, visit);
-  }
-
-  std::vector<Box> boxes_, node_;
-  std::vector<std::uint32_t> order_;
-};
+  return result;
+}
 
 template <typename TriangleMesh>
 class Projective_atlas
@@ -205,11 +119,7 @@ public:
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     if(result.empty())
-      tree_ = Direction_tree(parts_.number_of_faces(), [&](Index f)
-      {
-        const auto direction = [&](std::size_t k) { return rounded_vector(unit_vector(corner(3 * std::size_t(f) + k))); };
-        return std::array<std::array<double, 3>, 3>{{ direction(0), direction(1), direction(2) }};
-      });
+      tree_ = Box_tree<3>(boxes_of_parts());
     return result;
   }
 
@@ -298,6 +208,15 @@ private:
     Index part;
     Wide_vector coordinates;
   };
+
+  std::vector<Box<3> > boxes_of_parts() const
+  {
+    std::vector<Box<3> > result;
+    for(std::size_t c = 0; c < 3 * std::size_t(parts_.number_of_faces()); c += 3)
+      result.push_back(box_of_directions({{ rounded_vector(unit_vector(corner(c))), rounded_vector(unit_vector(corner(c + 1))),
+                                            rounded_vector(unit_vector(corner(c + 2))) }}));
+    return result;
+  }
 
   const Wide_vector& corner(std::size_t c) const { return points_[parts_.corner_vertex[c]]; }
   const Wide_number& weight(std::size_t c) const { return weights_[parts_.corner_vertex[c]]; }
@@ -420,7 +339,7 @@ private:
   std::vector<Wide_number> weights_;    // the same
   std::vector<std::size_t> first_part_; // by face of the mesh, into `part_`
   std::vector<Index> part_;
-  Direction_tree tree_;
+  Box_tree<3> tree_; // of the directions in each part
 };
 
 } // namespace internal
