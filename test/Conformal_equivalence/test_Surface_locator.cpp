@@ -413,7 +413,7 @@ BOOST_AUTO_TEST_CASE(random_curvatures)
   {
     Figures figures;
     for(const Triangulation& t : { triangulation(icosahedron()), triangulation(noisy) })
-      for(unsigned seed = 0; seed < 3; ++seed)
+      for(unsigned seed = 0; int(seed) < testing::number_of_cases(3); ++seed)
         figures.add(solve_and_check(t, random_angles(t, 1, seed), all_vertices(t), mode));
     BOOST_TEST(figures.crossings > 20u);
     tell("random curvatures", figures);
@@ -459,7 +459,7 @@ BOOST_AUTO_TEST_CASE(torus_with_one_vertex)
 {
   Random random(5);
   Figures figures;
-  for(int i = 0; i < 10; ++i)
+  for(int i = 0; i < testing::number_of_cases(10); ++i)
   {
     const double c = random(.8, 1.2), b = random(.8, 1.2), a = random(.8, 1.2); // one after the other, whatever the compiler
     Triangulation t = one_vertex_torus(a, b, c);

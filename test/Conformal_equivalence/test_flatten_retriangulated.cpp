@@ -338,7 +338,7 @@ BOOST_AUTO_TEST_CASE(extreme_cones)
 BOOST_AUTO_TEST_CASE(needles_do_not_hold_up)
 {
   const Triangulation sphere = triangulation(icosphere(3));
-  for(unsigned seed : { 0, 1, 3 })
+  for(unsigned seed : testing::cases<unsigned>({ 0, 1, 3 }))
     for(double spread : { 2., 3. })
     {
       const Metric metric = solved(sphere, random_angles(sphere, spread, seed), Retriangulation::WHEN_NEEDED);
@@ -937,7 +937,7 @@ BOOST_AUTO_TEST_CASE(what_has_a_solution_as_it_is_is_not_flipped)
   for(const char* name : {"mannequin-devil.off", "cylinder_locally_refined.off", "mech-holes-shark.off"})
     names.push_back(name);
   std::size_t fixed = 0, flipped = 0;
-  for(const std::string& name : names)
+  for(const std::string& name : testing::cases(names))
   {
     if(!has_mesh(name))
       continue;
@@ -1052,7 +1052,8 @@ BOOST_AUTO_TEST_CASE(without_need_nothing_changes, * needs_mesh("lion-head.off")
 // The disks that the fixed triangulation cannot do.
 BOOST_AUTO_TEST_CASE(disks_that_need_flips, * needs_mesh("cylinder_locally_refined.off"))
 {
-  for(const char* name : { "cylinder_locally_refined.off", "mannequin-devil.off", "blob.off", "corner_tris_with_hole.off", "degtri_sliding.off" })
+  for(const char* name : testing::cases<const char*>(
+        { "blob.off", "degtri_sliding.off", "corner_tris_with_hole.off", "mannequin-devil.off", "cylinder_locally_refined.off" }))
     BOOST_TEST_CONTEXT(name)
     {
       const Flattened never(read_mesh(name), Retriangulation::NEVER);

@@ -883,7 +883,7 @@ BOOST_AUTO_TEST_CASE(bodies_with_cocircular_corners)
 {
   const double noises[] = { 0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3 };
   std::size_t number = 0;
-  for(const Index n : { 4, 8, 14, 33 })
+  for(const Index n : testing::cases<Index>({ 4, 8, 14, 33 }))
     for(const Named_soup& body : bodies_with_ties(n, false))
       for(const int shift : { 0, 3 })
       {

@@ -1048,7 +1048,7 @@ void check_body(const Named_soup& body, double noise, Retriangulation r)
 BOOST_AUTO_TEST_CASE(bodies_with_cocircular_corners)
 {
   std::size_t number = 0;
-  for(const Index n : { 4, 8, 14, 33 })
+  for(const Index n : testing::cases<Index>({ 4, 8, 14, 33 }))
     for(const Named_soup& body : bodies_with_ties(n, true))
       for(const int shift : { 0, 3 })
       {

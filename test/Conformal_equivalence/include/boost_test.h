@@ -32,6 +32,7 @@
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <vector>
 
 namespace testing {
 
@@ -86,18 +87,30 @@ inline boost::unit_test::decorator::precondition needs_mesh(const std::string& n
     });
 }
 
+/// whether time is short (under sanitizers): if `CONFORMAL_EQUIVALENCE_SKIP_SLOW_TESTS` is set in the environment
+inline bool is_time_short() { return std::getenv("CONFORMAL_EQUIVALENCE_SKIP_SLOW_TESTS") != nullptr; }
+
+/// how many of n cases that are alike are tried: all of them, or a fourth where time is short
+inline int number_of_cases(int n) { return is_time_short() ? (n + 3) / 4 : n; }
+
+/// the same, of cases that are listed
+template <typename Case>
+std::vector<Case> cases(std::vector<Case> all)
+{
+  all.resize(std::size_t(number_of_cases(int(all.size()))));
+  return all;
+}
+
 /// whether the slow tests are to run
 inline boost::test_tools::assertion_result wants_slow_tests(boost::unit_test::test_unit_id)
 {
-  boost::test_tools::assertion_result result(
-    std::getenv("CONFORMAL_EQUIVALENCE_SKIP_SLOW_TESTS") == nullptr);
+  boost::test_tools::assertion_result result(!is_time_short());
   if(!result)
     result.message() << "slow tests are not asked for";
   return result;
 }
 
-/// a decorator of a test case that is left out where time is short (under sanitizers):
-/// if `CONFORMAL_EQUIVALENCE_SKIP_SLOW_TESTS` is set in the environment
+/// a decorator of a test case that is left out where time is short
 inline boost::unit_test::decorator::precondition slow()
 {
   return boost::unit_test::decorator::precondition(&wants_slow_tests);
