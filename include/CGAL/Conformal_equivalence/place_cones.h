@@ -135,8 +135,8 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 /// the spirit of Soliman, Slepcev and Crane, "Optimal Cone Singularities for Conformal Flattening", 2018). When this gains no more, the metric
 /// with these cones is solved for. Where it is worse than foreseen the Laplacian is made anew there, and the cones are moved again. What is
 /// returned is the best metric that was solved for. Where that is worse by more than a quarter than what was foreseen at first, as may be where
-/// edges are flipped by the thousands, cones with u = 0 are placed as well (see below), and the better one is returned. Angles are between pi / 4
-/// and 4 pi, if Gauss and Bonnet's formula allows.
+/// edges are flipped by the thousands, and on surfaces of fewer than 5000 vertices in any case, cones with u = 0 are placed as well (see below), and
+/// the better one is returned. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
 ///
 /// With an `angle_quantum` and `Cone_measure::ROOT_MEAN_SQUARE_U` the curvatures are multiples of it, those of a closest vector in the lattice
 /// with the Gram matrix of the columns; then the cones move with these, and multiples are chosen anew.
