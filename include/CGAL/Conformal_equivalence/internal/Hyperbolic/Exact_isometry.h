@@ -10,6 +10,7 @@
 
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Isometry.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Precise_number.h>
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Fraction_traits.h>
@@ -41,16 +42,28 @@ inline Rational exact_quotient(const Rational_numerator& x, const Rational_numer
 // x / y, rounded. \pre y is not 0
 inline double rounded_quotient(const Rational_numerator& x, const Rational_numerator& y) { return CGAL::to_double(exact_quotient(x, y)); }
 
-// The integer next to 2^bits x.
-inline Rational_numerator scaled_integer(const Double_double& x, int bits)
+// The sum of integers, all of which are held by numbers of type `double`.
+template <typename Numbers>
+Rational_numerator sum_of_integers(const Numbers& numbers)
 {
-  const Double_double n = floor(ldexp(x, bits) + 0.5);
-  const Rational sum = Rational(n.hi) + Rational(n.lo);
+  Rational sum(0);
+  for(double x : numbers)
+    sum += Rational(x);
   Rational_numerator numerator;
   CGAL::Fraction_traits<Rational>::Denominator_type denominator;
   CGAL::Fraction_traits<Rational>::Decompose()(sum, numerator, denominator);
   return numerator;
 }
+
+// The integer next to 2^bits x.
+inline Rational_numerator scaled_integer(const Double_double& x, int bits)
+{
+  const Double_double n = floor(ldexp(x, bits) + 0.5);
+  return sum_of_integers(std::array<double, 2>{{n.hi, n.lo}});
+}
+
+// The same. \pre it is below 2^1024
+inline Rational_numerator scaled_integer(const Precise_number& x, int bits) { return sum_of_integers(parts(floor(ldexp(x, bits) + 0.5))); }
 
 // re + i im
 struct Gaussian_integer
@@ -116,7 +129,8 @@ struct Exact_isometry
   static Exact_isometry identity() { return {Rational_numerator(1), Rational_numerator(0), Rational_numerator(0), Rational_numerator(1)}; }
 
   // Near to an isometry of the disk.
-  static Exact_isometry rounded(const Isometry<Double_double>& m, int bits)
+  template <typename Wide>
+  static Exact_isometry rounded(const Isometry<Wide>& m, int bits)
   {
     return {scaled_integer(m.a.re + m.b.re, bits), scaled_integer(m.a.im - m.b.im, bits), scaled_integer(-m.a.im - m.b.im, bits),
             scaled_integer(m.a.re - m.b.re, bits)};

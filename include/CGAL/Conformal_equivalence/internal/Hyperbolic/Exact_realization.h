@@ -48,8 +48,11 @@ public:
     if(!u.has_group())
       return;
     const double hopeless = 1e-3; // nothing near to such generators satisfies the relation
-    for(const int bits : {24, 32, 48, 64, 80, 96}) // the numbers given have about a hundred
+    const int most_bits = u.precise_generators.empty() ? 96 : 512; // two `double` have about a hundred
+    for(const int bits : {24, 32, 48, 64, 80, 96, 128, 192, 256, 384, 512})
     {
+      if(bits > most_bits)
+        break;
       if(u.relation_error < hopeless)
         try_with(u, bits);
       if(status == Status::OK && largest_length_difference_ <= tolerance)
@@ -118,7 +121,8 @@ private:
 
   void find_group(const Hyperbolic_uniformization& u)
   {
-    generator_ = exact_generators(u.wide_generators, u.relation, bits_);
+    generator_ = u.precise_generators.empty() ? exact_generators(u.wide_generators, u.wide_generators, u.relation, bits_)
+                                              : exact_generators(u.wide_generators, u.precise_generators, u.relation, bits_);
     if(generator_.empty())
       return;
     deck_ = std::make_shared<Word_values<Exact_isometry> >(generator_, Exact_isometry::identity());
