@@ -6,6 +6,7 @@
 #define BOOST_TEST_MODULE test_uniformize_hyperbolic
 #include "include/boost_test.h"
 #include "include/test_meshes.h"
+#include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/Exact_hyperbolic_surface.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
@@ -28,6 +29,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CE = CGAL::Conformal_equivalence;
@@ -361,7 +363,7 @@ BOOST_AUTO_TEST_CASE(angles_by_vectors)
       CEi::add_wide_corners_by<CEi::Wide_vectors<16, CEi::Hyperbolic_triangles> >(t, sides, by_two, CEi::Concurrency());
       CEi::add_wide_corners_by<CEi::Wide_vectors<32, CEi::Hyperbolic_triangles> >(t, sides, by_four, CEi::Concurrency(2));
       const std::vector<Sum> as_used = CEi::hyperbolic_angle_sums(t, s);
-      for(const std::vector<Sum>* other : {&by_two, &by_four, &as_used})
+      for(const std::vector<Sum>* other : {&std::as_const(by_two), &std::as_const(by_four), &as_used})
         for(Index v = 0; v < n; ++v)
         {
           const auto a = one_by_one[v].half_difference(Angle()), b = (*other)[v].half_difference(Angle());

@@ -157,12 +157,6 @@ Lines flatten_and_write(const Options& options, const Given_surface& given, Mesh
   return summary(options, mesh, figures);
 }
 
-// There is no texture on the sphere and in the hyperbolic plane.
-Material_files material_files(const Options& options)
-{
-  return Material_files(options.target == Target::SPHERE || options.target == Target::HYPERBOLIC ? "" : options.obj);
-}
-
 // Reads, maps, writes, tells; throws a `Failure` that says what went wrong.
 void run(const Options& given_options, Output_files& files, std::ostream& out, std::ostream& err)
 {

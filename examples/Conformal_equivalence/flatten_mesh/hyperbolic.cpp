@@ -17,7 +17,6 @@
 #include "../include/flatten_mesh/report_entries.h"
 #include "../include/flatten_mesh/Solver_traits.h"
 #include "../include/flatten_mesh/Stopwatch.h"
-#include "../include/flatten_mesh/write_outputs.h"
 
 #include <CGAL/Conformal_equivalence/Exact_hyperbolic_surface.h>
 #include <CGAL/Conformal_equivalence/compute_hyperbolic_metric.h>
@@ -43,7 +42,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <ostream>
 #include <set>
 #include <sstream>

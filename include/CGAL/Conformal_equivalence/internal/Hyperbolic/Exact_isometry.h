@@ -9,6 +9,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_EXACT_ISOMETRY_H
 
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Isometry.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/words.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Precise_number.h>
 
@@ -18,6 +19,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace CGAL {
 namespace Conformal_equivalence {
@@ -172,6 +174,23 @@ struct Exact_isometry
     return {{CGAL::integral_division(n.re, common), CGAL::integral_division(n.im, common)}, CGAL::integral_division(d, common)};
   }
 };
+
+// The product of the letters from `first` to `last` as matrices, half by half: so that nearly all factors are short.
+inline Exact_isometry matrix_product_of_letters(const Word& w, std::size_t first, std::size_t last, const Letter_values<Exact_isometry>& values)
+{
+  if(first == last)
+    return values.identity();
+  if(last - first == 1)
+    return values[w[first]];
+  const std::size_t middle = first + (last - first) / 2;
+  return matrix_product(matrix_product_of_letters(w, first, middle, values), matrix_product_of_letters(w, middle, last, values));
+}
+
+// The same as one after the other, with a single search for a common factor.
+inline Exact_isometry product_of_letters(const Word& w, const Letter_values<Exact_isometry>& values)
+{
+  return matrix_product_of_letters(w, 0, w.size(), values).reduced();
+}
 
 } // namespace internal
 } // namespace Conformal_equivalence
