@@ -76,8 +76,8 @@ struct Hyperbolic_uniformization : public Outcome
   std::vector<std::vector<std::int32_t> > canonical_words;
   std::vector<Motion> canonical_generators;          ///< the canonical generators
 
-  /// how far the relation, computed from generators with twice the digits of `double`, or more if these do not do, is from the identity. With cones or borders: the largest
-  /// such error of the motion once around a vertex, which is the identity, or at a cone the rotation by its angle
+  /// how far the relation, computed from generators with twice the digits of `double`, or more if these do not do, is from the identity. With cones
+  /// or borders: the largest such error of the motion once around a vertex, which is the identity, or at a cone the rotation by its angle
   double relation_error = 0;
 
   /// @}
