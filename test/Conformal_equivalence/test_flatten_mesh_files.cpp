@@ -1384,6 +1384,8 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written)
   const Folder folder;
   const std::string input = folder.write("grid.off", as_off(bumpy_grid(4)));
   check_refused({input, "-o", folder / "none/o.obj"}, 1, "cannot write");
+  for(const char* target : {"plane", "sphere", "hyperbolic"}) // before anything is read
+    check_refused({folder / "missing.off", "--target", target, "--svg", folder / "none/o.svg"}, 1, "cannot write");
   check_refused({input, "-o", folder.path.string()}, 1, "it is a directory");
   check_refused({input, "--svg", input}, 2, "would overwrite the input");
   const std::string cones = folder.write("o.mtl", "12 free\n");

@@ -6,6 +6,7 @@
 #define BOOST_TEST_MODULE test_uniformize_hyperbolic
 #include "include/boost_test.h"
 #include "include/test_meshes.h"
+#include "include/tolerances.h"
 
 #include <CGAL/Conformal_equivalence/Exact_hyperbolic_surface.h>
 #include <CGAL/Conformal_equivalence/compute_conformal_metric.h>
@@ -28,6 +29,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CE = CGAL::Conformal_equivalence;
@@ -330,6 +332,55 @@ BOOST_AUTO_TEST_CASE(small_triangles_lose_no_digits)
     for(int k = 0; k < 3; ++k) // they differ by terms of the size of the area
       BOOST_TEST(std::abs(std::atan2(hyperbolic.r, hyperbolic.tangent[k]) - std::atan2(euclidean.r, euclidean.tangent[k])) < 1e-14);
   }
+}
+
+// ---- Triangles by vectors
+
+// Angle sums of one triangle after the other and by vectors of either width: with pairs of `double` to the same bits, and those in `double` within
+// the rounding of both. Some triangles are broken at these factors.
+BOOST_AUTO_TEST_CASE(angles_by_vectors)
+{
+  namespace CEi = CE::internal;
+  typedef CEi::Double_double             Wide;
+  typedef CEi::Wide_angle_sum<Wide>      Sum;
+  typedef CE::Exact_angle<double>        Angle;
+  for(const double size : {1e-3, 1., 30.})
+    for(const double spread : {0.3, 3.})
+    {
+      Triangulation t = testing::triangulation(surface(plate(2), 3));
+      for(Index e = 0; e < t.number_of_edges(); ++e)
+        t.set_length(e, size * t.length(e));
+      const Index n = t.number_of_vertices();
+      const std::vector<double> u = testing::random_numbers(n, spread, 6);
+      std::vector<Wide> s;
+      for(Index v = 0; v < n; ++v)
+        s.push_back(exp(Wide(u[v] / 2)));
+#if !defined(CGAL_CONFORMAL_EQUIVALENCE_HARDWARE_FMA)
+      const std::vector<Wide> x = CEi::wide_lengths(t, s), sides = CEi::hyperbolic_sides(x), same_sides = CEi::hyperbolic_sides<Wide>(x);
+      BOOST_TEST((sides == same_sides));
+      std::vector<Sum> one_by_one(n), by_two(n), by_four(n);
+      CEi::add_hyperbolic_angles<double, Wide>(t, sides, one_by_one);
+      CEi::add_wide_corners_by<CEi::Wide_vectors<16, CEi::Hyperbolic_triangles> >(t, sides, by_two, CEi::Concurrency());
+      CEi::add_wide_corners_by<CEi::Wide_vectors<32, CEi::Hyperbolic_triangles> >(t, sides, by_four, CEi::Concurrency(2));
+      const std::vector<Sum> as_used = CEi::hyperbolic_angle_sums(t, s);
+      for(const std::vector<Sum>* other : {&std::as_const(by_two), &std::as_const(by_four), &as_used})
+        for(Index v = 0; v < n; ++v)
+        {
+          const auto a = one_by_one[v].half_difference(Angle()), b = (*other)[v].half_difference(Angle());
+          BOOST_TEST((a.re == b.re && a.im == b.im));
+          BOOST_TEST(one_by_one[v].missing_turns(Angle(), 0) == (*other)[v].missing_turns(Angle(), 0));
+        }
+#endif
+      CEi::Hyperbolic_energy<double> energy(t);
+      BOOST_TEST_REQUIRE(energy.evaluate(u)); // and flips
+      const CEi::Scaled_vector exact = CEi::hyperbolic_residual(t, s, CE::Conformal_conditions<double>(t)); // less 2 pi
+      const std::vector<double> sensitivity = energy.sensitivities();
+      for(Index v = 0; v < n; ++v)
+      {
+        const double roundings = 20; // of the formula of one angle, and in the sum
+        BOOST_TEST(std::abs(energy.angle_sums()[v] - 2 * pi - exact.entries[v]) < roundings * testing::unit_roundoff * sensitivity[v]);
+      }
+    }
 }
 
 // ---- The energy
@@ -817,6 +868,16 @@ BOOST_AUTO_TEST_CASE(meshes, * testing::needs_mesh("elephant.off"))
         BOOST_TEST(has_trivial_product_of_commutators(exact.canonical_generators()));
     }
   }
+}
+
+// With 133 handles the relation has 532 letters, and two `double` are too few digits.
+BOOST_AUTO_TEST_CASE(groups_of_a_hundred_handles, * testing::needs_mesh("cheese.off"))
+{
+  const auto u = CE::uniformize_hyperbolic(read_mesh("cheese.off"));
+  BOOST_TEST_REQUIRE(u.is_laid_out());
+  BOOST_TEST(u.genus == 133u);
+  BOOST_TEST(u.precise_generators.size() == 2 * u.genus);
+  BOOST_TEST(u.relation_error < 1e-12);
 }
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_HAS_HYPERBOLIC_SURFACES // CGAL 6.1 and later

@@ -25,12 +25,6 @@ namespace flattening {
 
 namespace {
 
-double in_degrees(double angle)
-{
-  const double degrees = angle / CGAL_PI * 180, nearest = std::round(degrees * 1e6) / 1e6;
-  return std::abs(degrees - nearest) < 1e-9 ? nearest : degrees; // 90, and not 90.00000000000001
-}
-
 std::string elements_text(const Report& report)
 {
   return CE::internal::elements_text(report.vertex_indices, report.edge_indices, report.face_indices);

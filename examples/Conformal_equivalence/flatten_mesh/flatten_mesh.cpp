@@ -76,6 +76,15 @@ void require_verdict(const Options& options, const Figures& figures)
                                                      : text(": its border overlaps in ", verdict.crossing_borders.size(), " places"));
 }
 
+// What of the file was skipped.
+std::vector<std::string> notices_of_input(const Options& options, const Given_surface& given)
+{
+  std::vector<std::string> result;
+  for(const std::string& notice : given.notices)
+    result.push_back(one_line(text(options.input, ": ", notice)));
+  return result;
+}
+
 // What is said beside the figures: what of the file was skipped, or is not written.
 std::vector<std::string> notices(const Options& options, const Given_surface& given, const Result& drawn, const Material_files& beside,
                                  const Figures& figures)
@@ -84,8 +93,8 @@ std::vector<std::string> notices(const Options& options, const Given_surface& gi
   const auto say = [&](const auto&... parts) { result.push_back(one_line(text(options.input, ": ", parts...))); };
   if(figures.is_search_stopped)
     say("interrupted: the cones are the best that were found by then");
-  for(const std::string& notice : given.notices)
-    say(notice);
+  for(const std::string& notice : notices_of_input(options, given))
+    result.push_back(notice);
   if(! options.obj.empty() && ! given.attributes.face_normals.empty() && (options.target == Target::SPHERE || ! drawn.given_face.empty()))
     say("its normals are not written: they are not those of the mesh that is written");
   if(! options.obj.empty() && ! given.attributes.colors.empty() && ! drawn.given_face.empty())
@@ -108,7 +117,8 @@ std::string reason_of_failure(const Options& options, const Given_surface& given
                               const Report& report)
 {
   if(is_interrupted())
-    return "interrupted";
+    return results.is_search_futile ? "interrupted before a metric was found for any of the cones placed by then, so that there is nothing to keep"
+                                    : "interrupted";
   const Mesh& mesh = results.given.mesh;
   if(results.components.empty() || CE::is_success(results.components.back().status))
     return explanation(options, given, mesh, conditions, report, Mesh::null_face());
@@ -117,13 +127,41 @@ std::string reason_of_failure(const Options& options, const Given_surface& given
        + explanation(options, given, mesh, conditions, report, component.first_face);
 }
 
-// Reads, solves, judges, writes; throws a `Failure` that says what went wrong.
+// Solves, judges, writes. Returns names and values for the terminal.
+Lines flatten_and_write(const Options& options, const Given_surface& given, Mesh& mesh, Material_files& beside, Progress& progress, Figures& figures,
+                        Output_files& files)
+{
+  Conditions conditions(given, mesh);
+  set_conditions(options, mesh, given, progress, conditions);
+  Results results(mesh);
+  figures.report = flatten(options, conditions, results, progress);
+  name_as_given(given, figures.report);
+  if(! figures.report)
+    fail(options.input, ": ", reason_of_failure(options, given, results, conditions, figures.report));
+  progress.begin("judging");
+  find_range_of_u(results.given, figures);
+  describe_components(results.given, figures);
+
+  const bool is_refined = is_refinement_needed(options, figures.report, results.refinement);
+  if(is_refined)
+    make_refined_mesh(options, results.given, results.refinement, results.made);
+  Result& drawn = is_refined || options.local_repair ? results.made : results.given;
+  if(options.target != Target::PLANE && ! results.components.empty())
+    place_images_side_by_side(options.target, results);
+  describe_made_mesh(results, is_refined, figures);
+  judge(options, results.given, drawn, figures);
+  require_verdict(options, figures);
+  figures.notices = notices(options, given, drawn, beside, figures);
+  progress.begin("writing");
+  write_outputs(options, mesh, drawn, beside, figures, files);
+  return summary(options, mesh, figures);
+}
+
+// Reads, maps, writes, tells; throws a `Failure` that says what went wrong.
 void run(const Options& given_options, Output_files& files, std::ostream& out, std::ostream& err)
 {
-  if(given_options.target == Target::HYPERBOLIC)
-    return run_hyperbolic(given_options, files, out, err);
   Options options = given_options;
-  Material_files beside(options.target == Target::SPHERE ? "" : options.obj); // there is no texture on the sphere
+  Material_files beside = material_files(options);
   announce_outputs(options, beside, files);
 
   const CE::Working_precision precision(options.precision_in_bits);
@@ -139,33 +177,14 @@ void run(const Options& given_options, Output_files& files, std::ostream& out, s
   figures.given = &given;
   figures.reading_seconds = watch.seconds();
 
-  Conditions conditions(given, mesh);
-  set_conditions(options, mesh, given, *progress, conditions);
-  Results results(mesh);
-  figures.report = flatten(options, conditions, results, *progress);
-  name_as_given(given, figures.report);
-  if(! figures.report)
-    fail(options.input, ": ", reason_of_failure(options, given, results, conditions, figures.report));
-  progress->begin("judging");
-  find_range_of_u(results.given, figures);
-  describe_components(results.given, figures);
-
-  const bool is_refined = is_refinement_needed(options, figures.report, results.refinement);
-  if(is_refined)
-    make_refined_mesh(options, results.given, results.refinement, results.made);
-  Result& drawn = is_refined || options.local_repair ? results.made : results.given;
-  if(options.target != Target::PLANE && ! results.components.empty())
-    place_images_side_by_side(options.target, results);
-  describe_made_mesh(results, is_refined, figures);
-  judge(options, results.given, drawn, figures);
-  require_verdict(options, figures);
-  figures.notices = notices(options, given, drawn, beside, figures);
-  progress->begin("writing");
-  write_outputs(options, mesh, drawn, beside, figures, files);
+  if(options.target == Target::HYPERBOLIC)
+    figures.notices = notices_of_input(options, given);
+  const Lines lines = options.target == Target::HYPERBOLIC ? make_hyperbolic_surface(options, given, mesh, watch, *progress, files)
+                                                           : flatten_and_write(options, given, mesh, beside, *progress, figures, files);
   progress.reset();
   if(options.quiet)
     return;
-  print_summary(is_output_in_stream(options) ? err : out, options, mesh, figures);
+  print_summary(is_output_in_stream(options) ? err : out, options, lines);
   for(const std::string& notice : figures.notices)
     err << "flatten_mesh: " << notice << std::endl;
 }

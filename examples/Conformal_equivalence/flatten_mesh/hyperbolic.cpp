@@ -17,7 +17,6 @@
 #include "../include/flatten_mesh/report_entries.h"
 #include "../include/flatten_mesh/Solver_traits.h"
 #include "../include/flatten_mesh/Stopwatch.h"
-#include "../include/flatten_mesh/write_outputs.h"
 
 #include <CGAL/Conformal_equivalence/Exact_hyperbolic_surface.h>
 #include <CGAL/Conformal_equivalence/compute_hyperbolic_metric.h>
@@ -43,7 +42,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -75,12 +73,6 @@ std::string list_of_elements(const char* one, const char* several, const std::ve
   return numbers.size() > 10 ? list + ", ..." : list;
 }
 
-double degrees_of(double angle)
-{
-  const double degrees = angle / CGAL_PI * 180, nearest = std::round(degrees * 1e6) / 1e6;
-  return std::abs(degrees - nearest) < 1e-9 ? nearest : degrees; // 90, and not 90.00000000000001
-}
-
 std::string explanation(const Given_surface& given, const Uniformization& u)
 {
   const std::string faces = list_of_elements("face", "faces", u.faces, [&](std::uint32_t f) { return given.face(Face(f)); }),
@@ -89,13 +81,13 @@ std::string explanation(const Given_surface& given, const Uniformization& u)
   {
     case CE::Status::WRONG_TOPOLOGY:
       return "a surface whose Euler characteristic is not negative has no hyperbolic metric without cones (borders become geodesics), whose "
-             "curvatures (360 - angle) must sum up to more than " + text(degrees_of(u.amount), " degrees (--cones FILE)") + faces;
+             "curvatures (360 - angle) must sum up to more than " + text(in_degrees(u.amount), " degrees (--cones FILE)") + faces;
     case CE::Status::GAUSS_BONNET_VIOLATED:
     case CE::Status::NO_ANGLE_LEFT:
       return text("there is no hyperbolic metric with these angles, which leave it no area: by the Gauss-Bonnet formula they must be smaller by more "
-                  "than ", degrees_of(-u.amount), " degrees in all", u.is_doubled ? " (of the double of the mesh)" : "") + vertices;
+                  "than ", in_degrees(-u.amount), " degrees in all", u.is_doubled ? " (of the double of the mesh)" : "") + vertices;
     case CE::Status::ANGLE_OUT_OF_RANGE:
-      return text(CE::message(u.status), ": ", degrees_of(u.amount), " degrees", vertices);
+      return text(CE::message(u.status), ": ", in_degrees(u.amount), " degrees", vertices);
     case CE::Status::ITERATIONS_EXHAUSTED:
       return text(CE::message(u.status), ": the residual is ", u.amount);
     case CE::Status::DEGENERATE_METRIC: // its faces are not those of the file
@@ -271,38 +263,10 @@ CE::Hyperbolic_metric<CE::Multiprecision_number> precise_metric(const Options& o
   return find(twofold.triangulation, twofold.conditions(conditions));
 }
 
-} // namespace
-
-void run_hyperbolic(const Options& options, Output_files& files, std::ostream& out, std::ostream& err)
+// Everything but the report.
+void write_files(const Options& options, const Uniformization& u, const Lines& lines, Mesh& mesh, Output_files& files)
 {
-  const Material_files no_material("");
-  announce_outputs(options, no_material, files);
-  const Stopwatch watch;
-  Mesh mesh;
-  const Given_surface given = read_surface(options.input, options.repair, mesh, options.format);
-  std::optional<Progress> progress(std::in_place, err, kind_of_progress(err, options.quiet));
-  const Conditions conditions = hyperbolic_conditions(options, given, *progress, mesh);
-  Uniformization u = uniformization(options, conditions, mesh, *progress);
-  if(! u)
-    fail(options.input, ": ", explanation(given, u));
-  if(! u.is_laid_out())
-    fail(options.input, ": only connected surfaces are laid out, without vertices that have no face");
-  const CE::Working_precision precision(options.precision_in_bits);
-  std::vector<CE::Multiprecision_number> precise_u;
-  if(options.precision_in_bits > bits_of_double)
-  {
-    CE::Hyperbolic_metric<CE::Multiprecision_number> metric = precise_metric(options, conditions, mesh, u.is_doubled, *progress);
-    if(! metric)
-      fail(options.input, ": ", CE::message(metric.status), ": the residual is ", metric.amount);
-    u.metric.statistics = metric.statistics;
-    precise_u = std::move(metric.log_scale_factors);
-    precise_u.resize(mesh.number_of_vertices()); // without those of the other half of a double
-  }
-  progress.reset();
-  const Exact_surface exact = u.has_group() ? CE::realize_exactly(u) : Exact_surface();
-  const double seconds = watch.seconds();
   const CE::Imported_mesh<Mesh> imported(mesh);
-  const Lines lines = summary_of(given, mesh, u, exact, seconds);
   const CE::Intrinsic_triangulation<double> drawn =
     u.is_doubled ? CE::internal::Surface_double<double>(imported.triangulation).triangulation : imported.triangulation;
   Disk_drawing drawing(drawn, u);
@@ -318,21 +282,40 @@ void run_hyperbolic(const Options& options, Output_files& files, std::ostream& o
     const std::string title = std::filesystem::path(options.input).filename().string();
     files.write(options.html, [&](std::ostream& o) { return write_page(o, title, lines, drawing); });
   }
+}
+
+} // namespace
+
+Lines make_hyperbolic_surface(const Options& options, const Given_surface& given, Mesh& mesh, const Stopwatch& watch, Progress& progress,
+                              Output_files& files)
+{
+  const Conditions conditions = hyperbolic_conditions(options, given, progress, mesh);
+  Uniformization u = uniformization(options, conditions, mesh, progress);
+  if(! u)
+    fail(options.input, ": ", is_interrupted() ? std::string("interrupted") : explanation(given, u));
+  if(! u.is_laid_out())
+    fail(options.input, ": only connected surfaces are laid out, without vertices that have no face");
+  std::vector<CE::Multiprecision_number> precise_u;
+  if(options.precision_in_bits > bits_of_double)
+  {
+    CE::Hyperbolic_metric<CE::Multiprecision_number> metric = precise_metric(options, conditions, mesh, u.is_doubled, progress);
+    if(! metric)
+      fail(options.input, ": ", CE::message(metric.status), ": the residual is ", metric.amount);
+    u.metric.statistics = metric.statistics;
+    precise_u = std::move(metric.log_scale_factors);
+    precise_u.resize(mesh.number_of_vertices()); // without those of the other half of a double
+  }
+  const Exact_surface exact = u.has_group() ? CE::realize_exactly(u) : Exact_surface();
+  const double seconds = watch.seconds();
+  const Lines lines = summary_of(given, mesh, u, exact, seconds);
+  progress.begin("writing");
+  write_files(options, u, lines, mesh, files);
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
   if(! options.report.empty())
     files.write(options.report, [&](std::ostream& o) { return (o << json_report(options, mesh, u, precise_u, exact, seconds)).good(); });
 #endif
   files.commit();
-  if(options.quiet)
-    return;
-  std::ostream& summary = is_output_in_stream(options) ? err : out;
-  std::size_t width = 0;
-  for(const auto& line : lines)
-    width = (std::max)(width, line.first.size());
-  for(const auto& line : lines)
-    summary << line.first << std::string(width + 2 - line.first.size(), ' ') << line.second << '\n';
-  for(const std::string& notice : given.notices)
-    err << "flatten_mesh: " << one_line(text(options.input, ": ", notice)) << std::endl;
+  return lines;
 }
 
 } // namespace flattening

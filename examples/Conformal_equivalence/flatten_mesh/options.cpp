@@ -374,7 +374,8 @@ void parse_cones(const po::variables_map& values, Options& options)
   if(is_given(values, "cones") && cones.empty())
     throw Usage_error("--cones needs the name of a file");
   if(is_auto && options.target == Target::HYPERBOLIC)
-    throw Usage_error("--target hyperbolic takes --cones FILE, but not --cones auto");
+    throw Usage_error("--target hyperbolic takes --cones FILE, but not --cones auto, whose cones make a surface flat and leave it no hyperbolic "
+                      "area");
   require(is_auto, values, "--cones auto", {"max-scale", "max-area", "max-rms", "cone-measure"});
   require(is_seamless, values, "--seamless", {"tiles", "distortion", "lattice-coordinates", "holonomy"});
   require(is_seamless || ! cones.empty(), values, "--cones or --seamless", {"quantize"});

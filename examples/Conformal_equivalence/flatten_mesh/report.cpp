@@ -33,8 +33,6 @@ std::string count(std::size_t n, const char* singular, const char* plural)
 
 namespace {
 
-double in_degrees(double angle) { return angle / CGAL_PI * 180; }
-
 const char* injective_text(const Figures& figures)
 {
   switch(figures.verdict.injectivity)
@@ -216,10 +214,10 @@ Lines summary(const Options& options, const Mesh& mesh, const Figures& figures)
   return lines;
 }
 
-void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, const Figures& figures)
+void print_summary(std::ostream& out, const Options& options, const Lines& lines)
 {
   out << options.input << '\n';
-  for(const auto& line : summary(options, mesh, figures))
+  for(const auto& line : lines)
     out << "  " << line.first << std::string(line.first.size() < 24 ? 24 - line.first.size() : 1, ' ') << line.second << '\n';
   for(const std::string& file : outputs(options))
     if(! file.empty() && file != "-" && ! (options.is_report_joint && file == options.report))

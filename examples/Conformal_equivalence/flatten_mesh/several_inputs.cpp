@@ -50,7 +50,7 @@ void check_names(const Options& all, std::ostream& out)
       Options options = options_of_input(all, i);
       if(options.is_report_joint)
         options.report.clear();
-      announce_outputs(options, Material_files(options.target == Target::SPHERE ? "" : options.obj), files);
+      announce_outputs(options, material_files(options), files);
     }
     catch(const Failure&) {}
   if(const Options first = options_of_input(all, 0); first.is_report_joint)

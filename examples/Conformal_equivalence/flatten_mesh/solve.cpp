@@ -75,6 +75,7 @@ Report flatten(const Options& options, const Conditions& conditions, Results& re
     placement = for_each_component(options, conditions, results, progress, place_cones_on_component);
     results.placing_seconds = watch.seconds();
     results.is_search_stopped = is_best_so_far(placement);
+    results.is_search_futile = placement.status == CE::Status::STOPPED_BY_VISITOR && ! results.is_search_stopped;
     if(results.is_search_stopped)
       heed_interrupt(); // what is left to do is done with these cones
     else if(! placement)

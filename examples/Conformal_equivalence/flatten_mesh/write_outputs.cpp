@@ -298,6 +298,11 @@ Material_files::Material_files(const std::string& obj)
   texture = beside(".checker.png");
 }
 
+Material_files material_files(const Options& options)
+{
+  return Material_files(options.target == Target::SPHERE || options.target == Target::HYPERBOLIC ? "" : options.obj);
+}
+
 bool is_output_in_stream(const Options& options)
 {
   const std::vector<std::string> files = outputs(options);

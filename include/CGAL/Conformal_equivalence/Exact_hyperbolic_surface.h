@@ -112,7 +112,7 @@ private:
 ///
 /// \return the surface, with a status: `OK`; `WRONG_TOPOLOGY`, if `u` has no group; `NOT_INJECTIVE`, if triangles, `faces`, are not
 ///         counterclockwise with as many digits as `u` has; `ITERATIONS_EXHAUSTED`, if these do not suffice for the relation (`amount`: by how
-///         much `u` misses it; genera of a hundred or so); `BOUND_NOT_MET`, if lengths differ by `amount`, more than `tolerance`.
+///         much `u` misses it); `BOUND_NOT_MET`, if lengths differ by `amount`, more than `tolerance`.
 ///
 /// Linear time, with numbers of a few dozen digits at most vertices, and of as many as the generators have along the loops.
 inline Exact_hyperbolic_surface realize_exactly(const Hyperbolic_uniformization& u, double tolerance = 1e-6)

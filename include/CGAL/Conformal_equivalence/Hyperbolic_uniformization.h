@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Hyperbolic_metric.h>
 #include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Isometry.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Precise_number.h>
 
 #include <array>
 #include <cstddef>
@@ -75,14 +76,16 @@ struct Hyperbolic_uniformization : public Outcome
   std::vector<std::vector<std::int32_t> > canonical_words;
   std::vector<Motion> canonical_generators;          ///< the canonical generators
 
-  /// how far the relation, computed from generators with twice the digits of `double`, is from the identity. With cones or borders: the largest
-  /// such error of the motion once around a vertex, which is the identity, or at a cone the rotation by its angle
+  /// how far the relation, computed from generators with twice the digits of `double`, or more if these do not do, is from the identity. With cones
+  /// or borders: the largest such error of the motion once around a vertex, which is the identity, or at a cone the rotation by its angle
   double relation_error = 0;
 
   /// @}
 
-  /// the generators to all the digits that are known
+  /// the generators, to twice the digits of `double`
   std::vector<internal::Isometry<Wide_number> > wide_generators;
+  /// the same with more digits, if for the relation twice those of `double` do not do; else empty
+  std::vector<internal::Isometry<internal::Precise_number> > precise_generators;
   /// by vertex: the motion that takes the center to the chosen lift, to all the digits that are known
   std::vector<internal::Isometry<Wide_number> > wide_frames;
 

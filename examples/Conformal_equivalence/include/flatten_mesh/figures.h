@@ -90,7 +90,8 @@ typedef std::vector<std::pair<std::string, std::string> > Lines;
 // Names and values, for the terminal and the page.
 Lines summary(const Options& options, const Mesh& mesh, const Figures& figures);
 
-void print_summary(std::ostream& out, const Options& options, const Mesh& mesh, const Figures& figures);
+// The lines, and which files were written.
+void print_summary(std::ostream& out, const Options& options, const Lines& lines);
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_JSON
 std::string json_report(const Options& options, const Mesh& mesh, const Figures& figures);

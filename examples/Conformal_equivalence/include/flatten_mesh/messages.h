@@ -4,6 +4,9 @@
 #ifndef FLATTEN_MESH_MESSAGES_H
 #define FLATTEN_MESH_MESSAGES_H
 
+#include <CGAL/number_type_config.h>
+
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -35,6 +38,12 @@ inline std::string one_line(std::string message)
     if(static_cast<unsigned char>(c) < 0x20)
       c = '?';
   return message;
+}
+
+inline double in_degrees(double radians)
+{
+  const double degrees = radians / CGAL_PI * 180, nearest = std::round(degrees * 1e6) / 1e6;
+  return std::abs(degrees - nearest) < 1e-9 ? nearest : degrees; // 90, and not 90.00000000000001
 }
 
 } // namespace flattening

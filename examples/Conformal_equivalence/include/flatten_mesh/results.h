@@ -76,6 +76,7 @@ public:
   Repair_figures repair;
   double placing_seconds = 0; // of --cones auto
   bool is_search_stopped = false; // by an interrupt: the cones are the best by then
+  bool is_search_futile = false;  // it was stopped before there was a metric with any cones
   std::vector<Mapped_component> components; // if there are several, and each was mapped by itself
 
   explicit Results(Mesh& mesh) : given(mesh), made(made_mesh_) {}

@@ -20,10 +20,12 @@ struct Material_files
   std::string material, texture;
   std::string foreign_material; // is in the place of the material, and is kept: it was not written by this program
 
-
   // Throws a `Failure` if there is no place for the material.
   explicit Material_files(const std::string& obj);
 };
+
+// Those of an output. There is no texture on the sphere and in the hyperbolic plane.
+Material_files material_files(const Options& options);
 
 // Whether an output goes to the standard output, which is then for nothing else.
 bool is_output_in_stream(const Options& options);

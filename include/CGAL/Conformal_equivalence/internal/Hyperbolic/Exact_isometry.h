@@ -9,7 +9,9 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_EXACT_ISOMETRY_H
 
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Isometry.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/words.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Precise_number.h>
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Fraction_traits.h>
@@ -17,6 +19,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace CGAL {
 namespace Conformal_equivalence {
@@ -41,16 +44,28 @@ inline Rational exact_quotient(const Rational_numerator& x, const Rational_numer
 // x / y, rounded. \pre y is not 0
 inline double rounded_quotient(const Rational_numerator& x, const Rational_numerator& y) { return CGAL::to_double(exact_quotient(x, y)); }
 
-// The integer next to 2^bits x.
-inline Rational_numerator scaled_integer(const Double_double& x, int bits)
+// The sum of integers, all of which are held by numbers of type `double`.
+template <typename Numbers>
+Rational_numerator sum_of_integers(const Numbers& numbers)
 {
-  const Double_double n = floor(ldexp(x, bits) + 0.5);
-  const Rational sum = Rational(n.hi) + Rational(n.lo);
+  Rational sum(0);
+  for(double x : numbers)
+    sum += Rational(x);
   Rational_numerator numerator;
   CGAL::Fraction_traits<Rational>::Denominator_type denominator;
   CGAL::Fraction_traits<Rational>::Decompose()(sum, numerator, denominator);
   return numerator;
 }
+
+// The integer next to 2^bits x.
+inline Rational_numerator scaled_integer(const Double_double& x, int bits)
+{
+  const Double_double n = floor(ldexp(x, bits) + 0.5);
+  return sum_of_integers(std::array<double, 2>{{n.hi, n.lo}});
+}
+
+// The same. \pre it is below 2^1024
+inline Rational_numerator scaled_integer(const Precise_number& x, int bits) { return sum_of_integers(parts(floor(ldexp(x, bits) + 0.5))); }
 
 // re + i im
 struct Gaussian_integer
@@ -116,7 +131,8 @@ struct Exact_isometry
   static Exact_isometry identity() { return {Rational_numerator(1), Rational_numerator(0), Rational_numerator(0), Rational_numerator(1)}; }
 
   // Near to an isometry of the disk.
-  static Exact_isometry rounded(const Isometry<Double_double>& m, int bits)
+  template <typename Wide>
+  static Exact_isometry rounded(const Isometry<Wide>& m, int bits)
   {
     return {scaled_integer(m.a.re + m.b.re, bits), scaled_integer(m.a.im - m.b.im, bits), scaled_integer(-m.a.im - m.b.im, bits),
             scaled_integer(m.a.re - m.b.re, bits)};
@@ -158,6 +174,23 @@ struct Exact_isometry
     return {{CGAL::integral_division(n.re, common), CGAL::integral_division(n.im, common)}, CGAL::integral_division(d, common)};
   }
 };
+
+// The product of the letters from `first` to `last` as matrices, half by half: so that nearly all factors are short.
+inline Exact_isometry matrix_product_of_letters(const Word& w, std::size_t first, std::size_t last, const Letter_values<Exact_isometry>& values)
+{
+  if(first == last)
+    return values.identity();
+  if(last - first == 1)
+    return values[w[first]];
+  const std::size_t middle = first + (last - first) / 2;
+  return matrix_product(matrix_product_of_letters(w, first, middle, values), matrix_product_of_letters(w, middle, last, values));
+}
+
+// The same as one after the other, with a single search for a common factor.
+inline Exact_isometry product_of_letters(const Word& w, const Letter_values<Exact_isometry>& values)
+{
+  return matrix_product_of_letters(w, 0, w.size(), values).reduced();
+}
 
 } // namespace internal
 } // namespace Conformal_equivalence

@@ -48,13 +48,18 @@ public:
     if(!u.has_group())
       return;
     const double hopeless = 1e-3; // nothing near to such generators satisfies the relation
-    for(const int bits : {24, 32, 48, 64, 80, 96}) // the numbers given have about a hundred
+    // two `double` have about a hundred bits; where they do not do, less would not, either
+    const std::vector<int> usual = {24, 32, 48, 64, 80, 96}, many = {128, 192, 256, 384, 512};
+    for(const int bits : u.precise_generators.empty() ? usual : many)
     {
       if(u.relation_error < hopeless)
         try_with(u, bits);
       if(status == Status::OK && largest_length_difference_ <= tolerance)
-        return;
+        break;
     }
+    find_canonical_generators(u);
+    if(status == Status::OK && largest_length_difference_ <= tolerance)
+      return;
     if(generator_.empty())
     {
       status = Status::ITERATIONS_EXHAUSTED;
@@ -118,13 +123,17 @@ private:
 
   void find_group(const Hyperbolic_uniformization& u)
   {
-    generator_ = exact_generators(u.wide_generators, u.relation, bits_);
+    generator_ = u.precise_generators.empty() ? exact_generators(u.wide_generators, u.wide_generators, u.relation, bits_)
+                                              : exact_generators(u.wide_generators, u.precise_generators, u.relation, bits_);
     if(generator_.empty())
       return;
     deck_ = std::make_shared<Word_values<Exact_isometry> >(generator_, Exact_isometry::identity());
-    canonical_.clear();
-    for(const Word& w : u.canonical_words)
-      canonical_.push_back((*deck_)(w));
+  }
+
+  void find_canonical_generators(const Hyperbolic_uniformization& u)
+  {
+    for(std::size_t n = 0; n < u.canonical_words.size() && !generator_.empty(); ++n)
+      canonical_.push_back((*deck_)(u.canonical_words[n]));
   }
 
   // Points near the border of the disk get more digits: what is d in the middle is about d (1 - |z|^2) there.

@@ -71,7 +71,7 @@ private:
   // From face to face, those next whose corners come closest to the center. The frame of a corner looks along its halfedge.
   void place_faces(const Hyperbolic_metric<NT>& metric)
   {
-    const std::vector<Complex> half_corner = half_corners(metric);
+    const std::vector<Complex> half_corner = half_corners(metric.triangulation, metric.scale_factors);
     const auto along = [&](Index h)
     {
       const Wide x = metric.wide_half_sinh(h);

@@ -16,14 +16,22 @@
 
 #include <CGAL/Conformal_equivalence/Conformal_conditions.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
+#include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_incircle_vectors.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_linear_solver.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/hyperbolic_triangle.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_angle_sums.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/wide_residual.h>
-#include <CGAL/Conformal_equivalence/internal/Triangles/Angle_sum.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
+
+#include <CGAL/number_type_config.h>
 
 #include <Eigen/SparseCore>
 
@@ -32,6 +40,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -51,39 +60,7 @@ struct Hyperbolic_sides
       m{{hyperbolic_cosine_minus_one(x[0], y[0]), hyperbolic_cosine_minus_one(x[1], y[1]), hyperbolic_cosine_minus_one(x[2], y[2])}}
   {}
 
-  Hyperbolic_sides(const std::array<NT, 3>& sines, const std::array<NT, 3>& cosines, const std::array<NT, 3>& cosines_minus_one)
-    : x(sines), y(cosines), m(cosines_minus_one)
-  {}
-
   Hyperbolic_incircle_form<NT> triangle() const { return Hyperbolic_incircle_form<NT>(x, y, m); }
-};
-
-// The same of all edges, each of which has two faces.
-template <typename NT>
-class Hyperbolic_edges
-{
-public:
-  // `x` by edge, scaled
-  explicit Hyperbolic_edges(std::vector<NT> x) : x_(std::move(x))
-  {
-    y_.reserve(x_.size());
-    m_.reserve(x_.size());
-    for(const NT& sine : x_)
-    {
-      y_.push_back(hyperbolic_cosine(sine));
-      m_.push_back(hyperbolic_cosine_minus_one(sine, y_.back()));
-    }
-  }
-
-  template <typename Length>
-  Hyperbolic_sides<NT> sides_of_face(const Intrinsic_triangulation<Length>& t, std::uint32_t f) const
-  {
-    const std::uint32_t a = t.edge(3 * f), b = t.edge(3 * f + 1), c = t.edge(3 * f + 2);
-    return Hyperbolic_sides<NT>({{x_[a], x_[b], x_[c]}}, {{y_[a], y_[b], y_[c]}}, {{m_[a], m_[b], m_[c]}});
-  }
-
-private:
-  std::vector<NT> x_, y_, m_;
 };
 
 template <typename NT, typename Wide>
@@ -127,8 +104,24 @@ public:
   const std::vector<Index>& broken_faces() const { return broken_; }        // that violate the triangle inequality
   const std::vector<Index>& flips() const { return flips_; }                // in order
   std::size_t number_of_changes() const { return changes_; }                // of the triangulation; it never falls
-  const std::vector<double>& sensitivities() const { return sensitivity_; } // of the angle sums to relative errors of x, by vertex
   Delaunay_flipper<NT>& flipper() { return *flipper_; }
+
+  // Of the angle sums to relative errors of x, by vertex. Linear time.
+  std::vector<double> sensitivities() const
+  {
+    std::vector<double> result(t_.number_of_vertices(), 0.);
+    for(Index f = 0; f < t_.number_of_faces(); ++f)
+    {
+      const Hyperbolic_sides<double> sides = sides_of(f);
+      const Hyperbolic_incircle_form<double> triangle = sides.triangle();
+      if(triangle.is_broken())
+        continue;
+      const std::array<double, 3> w = hyperbolic_weights(sides.x, triangle);
+      for(int k = 0; k < 3; ++k)
+        result[t_.apex(3 * f + Index(k))] += 1 + 2 * (std::abs(w[(k + 1) % 3]) + std::abs(w[(k + 2) % 3]));
+    }
+    return result;
+  }
 
   // Minus the derivative of the angle sums.
   Coupled_vertices hessian() const
@@ -222,30 +215,89 @@ private:
     is_worn_ = false;
   }
 
+  // Vectors of any width give the same bits, if the program is not compiled for fused multiplications.
   bool find_angles()
   {
-    std::vector<Angle_sum<double> > sum(t_.number_of_vertices());
+    angle_sum_.assign(t_.number_of_vertices(), 0.);
     weight_.assign(t_.number_of_edges(), 0.);
-    sensitivity_.assign(t_.number_of_vertices(), 0.);
     broken_.clear();
     without_circle_.clear();
-    std::vector<double> scaled(x_);
-    for(Index e = 0; e < t_.number_of_edges(); ++e)
-      scaled[e] *= scale_[t_.origin(t_.edge_halfedge(e))] * scale_[t_.target(t_.edge_halfedge(e))];
-    const Hyperbolic_edges<double> edges(std::move(scaled));
+    return has_avx2() ? add_faces_by_vectors<32>() : add_faces_by_vectors<16>();
+  }
+
+  // Of some thousand faces at a time angles and weights are computed, and then added. Returns whether all lengths are positive and finite.
+  template <int bytes>
+  bool add_faces_by_vectors()
+  {
+    typedef Hyperbolic_incircle_vectors<bytes> Faces;
+    const Index all = t_.number_of_faces() / Faces::lanes, many = 2048 / Faces::lanes;
+    std::vector<Faces> faces((std::min)(all, many));
     bool is_finite = true;
-    for(Index f = 0; f < t_.number_of_faces(); ++f)
-      is_finite = add_face(f, edges.sides_of_face(t_, f), sum) && is_finite;
-    angle_sum_.resize(t_.number_of_vertices());
-    for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      angle_sum_[v] = sum[v].radians();
+    for(Index first = 0; first < all; first += many)
+    {
+      const Index n = (std::min)(many, all - first);
+      compute(first, first + n, faces.data());
+      for(Index b = 0; b < n; ++b)
+        for(int i = 0; i < Faces::lanes; ++i)
+          is_finite = add_face((first + b) * Faces::lanes + Index(i), i, faces[b]) && is_finite;
+    }
+    for(Index f = all * Faces::lanes; f < t_.number_of_faces(); ++f)
+      is_finite = add_face(f) && is_finite;
     return is_finite;
   }
 
-  // Returns whether the lengths of the face are positive and finite.
-  bool add_face(Index f, const Hyperbolic_sides<double>& sides, std::vector<Angle_sum<double> >& sum)
+  // The blocks of faces from `first` on, as many as there are lanes in each.
+  void compute(Index first, Index last, Hyperbolic_incircle_vectors<16>* faces) const { compute_blocks(first, last, faces); }
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2 void compute(Index first, Index last, Hyperbolic_incircle_vectors<32>* faces) const
+  {
+    compute_blocks(first, last, faces);
+  }
+
+  template <typename Faces>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute_blocks(Index first, Index last, Faces* faces) const
+  {
+    double entries[Faces::lanes];
+    for(Index b = first; b < last; ++b)
+    {
+      typename Faces::Vector x[3];
+      for(Index k = 0; k < 3; ++k)
+      {
+        for(int i = 0; i < Faces::lanes; ++i)
+          entries[i] = scaled_length(3 * (b * Faces::lanes + Index(i)) + k);
+        std::memcpy(&x[k], entries, sizeof(entries));
+      }
+      faces[b - first].compute(x);
+    }
+  }
+
+  // The scaled x of a halfedge, the same for both sides of an edge.
+  double scaled_length(Index h) const { return x_[t_.edge(h)] * (scale_[t_.origin(h)] * scale_[t_.target(h)]); }
+
+  // Adds lane i, which is f. Returns whether the lengths of the face are positive and finite.
+  template <typename Faces>
+  bool add_face(Index f, int i, const Faces& faces)
+  {
+    if(faces.is_plain[i] == 0)
+      return add_face(f);
+    for(Index k = 0; k < 3; ++k)
+    {
+      angle_sum_[t_.apex(3 * f + k)] += faces.angle[k][i];
+      weight_[t_.edge(3 * f + k)] += faces.weight[k][i];
+    }
+    return true;
+  }
+
+  Hyperbolic_sides<double> sides_of(Index f) const
+  {
+    return Hyperbolic_sides<double>(scaled_length(3 * f), scaled_length(3 * f + 1), scaled_length(3 * f + 2));
+  }
+
+  // The same for any face.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
+  bool add_face(Index f)
   {
     const Index h = 3 * f;
+    const Hyperbolic_sides<double> sides = sides_of(f);
     const std::array<double, 3>& x = sides.x;
     if(!(excess(x[0], x[1], x[2]) > 0 && excess(x[1], x[2], x[0]) > 0 && excess(x[2], x[0], x[1]) > 0))
       without_circle_.push_back(f);
@@ -253,18 +305,16 @@ private:
     if(!triangle.is_broken())
     {
       const std::array<double, 3> w = hyperbolic_weights(x, triangle);
-      const double unit = 1 / triangle.s;
       for(int k = 0; k < 3; ++k)
       {
-        sum[t_.apex(h + Index(k))].add(triangle.tangent[k] * unit, triangle.r * unit);
+        angle_sum_[t_.apex(h + Index(k))] += 2 * std::atan2(triangle.r, triangle.tangent[k]);
         weight_[t_.edge(h + Index(k))] += w[k];
-        sensitivity_[t_.apex(h + Index(k))] += 1 + 2 * (std::abs(w[(k + 1) % 3]) + std::abs(w[(k + 2) % 3]));
       }
     }
     else
     {
       broken_.push_back(f);
-      sum[t_.apex(h + Index(longest_side(x[0], x[1], x[2])))].add_straight();
+      angle_sum_[t_.apex(h + Index(longest_side(x[0], x[1], x[2])))] += CGAL_PI;
     }
     return x[0] > 0 && x[1] > 0 && x[2] > 0 && std::isfinite(triangle.s);
   }
@@ -272,24 +322,58 @@ private:
   Triangulation& t_;
   const Triangulation given_;
   std::unique_ptr<Delaunay_flipper<NT> > flipper_;
-  std::vector<double> x_, scale_, angle_sum_, weight_, sensitivity_;
+  std::vector<double> x_, scale_, angle_sum_, weight_;
   std::vector<Index> broken_, without_circle_, flips_;
   std::size_t changes_ = 0;
   bool has_flipped_ = false; // in the last evaluation
   bool is_worn_ = false; // some length is known less well than to rounding
 };
 
-// Theta~ - Theta^ where the angle sum is prescribed, 0 elsewhere, at the factors s = e^{u/2} of a wide type.
+// Hyperbolic triangles, as `Wide_corner_vectors` finds them from the numbers of their sides.
+struct Hyperbolic_triangles
+{
+  static constexpr int numbers_per_side = numbers_per_hyperbolic_side;
+  template <int bytes> using Vectors = Wide_hyperbolic_incircle_vectors<bytes>;
+
+  template <typename Wide>
+  static Hyperbolic_incircle_form<Wide> triangle(const Wide* a, const Wide* b, const Wide* c)
+  {
+    return Hyperbolic_incircle_form<Wide>({{a[0], b[0], c[0]}}, {{a[1], b[1], c[1]}}, {{a[2], b[2], c[2]}});
+  }
+};
+
+// Adds all corners, by the numbers of the sides.
+template <typename NT, typename Wide>
+void add_hyperbolic_angles(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& sides, std::vector<Wide_angle_sum<Wide> >& sum)
+{
+  const auto side_of = [&](std::uint32_t h) { return &sides[numbers_per_hyperbolic_side * std::size_t(t.edge(h))]; };
+  for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
+    add_corners(t, f, Hyperbolic_triangles::triangle(side_of(3 * f), side_of(3 * f + 1), side_of(3 * f + 2)), sum);
+}
+
+inline void add_hyperbolic_angles(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& sides,
+                                  std::vector<Wide_angle_sum<Double_double> >& sum)
+{
+  if(has_avx2())
+    add_wide_corners_by<Wide_vectors_with_avx2<Hyperbolic_triangles> >(t, sides, sum, Concurrency());
+  else
+    add_wide_corners_by<Wide_vectors<16, Hyperbolic_triangles> >(t, sides, sum, Concurrency());
+}
+
+// The angle sums, by vertex, at the factors s = e^{u/2} of a wide type.
+template <typename NT, typename Wide>
+std::vector<Wide_angle_sum<Wide> > hyperbolic_angle_sums(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s)
+{
+  std::vector<Wide_angle_sum<Wide> > result(t.number_of_vertices());
+  add_hyperbolic_angles(t, hyperbolic_sides(wide_lengths(t, s)), result);
+  return result;
+}
+
+// Theta~ - Theta^ where the angle sum is prescribed, 0 elsewhere.
 template <typename NT, typename Wide>
 Scaled_vector hyperbolic_residual(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, const Conformal_conditions<NT>& conditions)
 {
-  std::vector<Wide_angle_sum<Wide> > sum(t.number_of_vertices());
-  std::vector<Wide> x(t.number_of_edges());
-  set_wide_lengths(t, s, 0, t.number_of_edges(), x);
-  const Hyperbolic_edges<Wide> edges(std::move(x));
-  for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
-    add_corners(t, f, edges.sides_of_face(t, f).triangle(), sum);
-  return differences_from_targets(t, sum, conditions);
+  return differences_from_targets(t, hyperbolic_angle_sums(t, s), conditions);
 }
 
 // The area of a face: with y = cosh(l/2),  sin(A/2) = sinh(s) r / (2 y_a y_b y_c),  cos(A/2) = (2 + x_a^2 + x_b^2 + x_c^2) / (2 y_a y_b y_c).

@@ -11,7 +11,6 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_HYPERBOLIC_LAYOUT_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_HYPERBOLIC_LAYOUT_H
 
-#include <CGAL/Conformal_equivalence/Hyperbolic_metric.h>
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Hyperbolic_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Isometry.h>
@@ -19,6 +18,7 @@
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/hyperbolic_triangle.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/words.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Complex_number.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/wide_angle_sums.h>
 
 #include <array>
 #include <cstddef>
@@ -33,16 +33,15 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// By halfedge: e^{i alpha / 2} for the angle alpha of its face at its origin.
-template <typename NT>
-std::vector<Complex_number<typename Hyperbolic_metric<NT>::Wide_number> > half_corners(const Hyperbolic_metric<NT>& metric)
+// By halfedge: e^{i alpha / 2} for the angle alpha of its face at its origin, at the factors s = e^{u/2}.
+template <typename NT, typename Wide>
+std::vector<Complex_number<Wide> > half_corners(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s)
 {
   using std::sqrt;
-  typedef typename Hyperbolic_metric<NT>::Wide_number Wide;
-  std::vector<Complex_number<Wide> > result(metric.triangulation.number_of_halfedges());
-  for(std::uint32_t f = 0; f < metric.triangulation.number_of_faces(); ++f)
+  std::vector<Complex_number<Wide> > result(t.number_of_halfedges());
+  for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
   {
-    const Hyperbolic_incircle_form<Wide> triangle = scaled_sides(metric.triangulation, metric.scale_factors, f).triangle();
+    const Hyperbolic_incircle_form<Wide> triangle = scaled_sides(t, s, f).triangle();
     for(std::uint32_t k = 0; k < 3; ++k)
     {
       const Complex_number<Wide> z{triangle.tangent[(k + 1) % 3], triangle.r};
@@ -53,21 +52,20 @@ std::vector<Complex_number<typename Hyperbolic_metric<NT>::Wide_number> > half_c
   return result;
 }
 
-template <typename NT>
+template <typename NT, typename Wide>
 class Hyperbolic_layout
 {
 public:
   typedef std::uint32_t Index;
-  typedef typename Hyperbolic_metric<NT>::Wide_number Wide;
   typedef Isometry<Wide> Motion;
   typedef Complex_number<Wide> Complex;
 
   std::vector<Motion> frame;      // by vertex
   std::vector<Motion> generator;  // of the loops
 
-  // \pre the surface is closed and connected
-  Hyperbolic_layout(const Hyperbolic_metric<NT>& metric, const Loop_system& loops)
-    : metric_(metric), t_(metric.triangulation), half_turn_(t_.number_of_halfedges()), frame_(t_.number_of_vertices(), Motion::identity())
+  // The metric with the factors s = e^{u/2}, to which references are kept. \pre the surface is closed and connected
+  Hyperbolic_layout(const Intrinsic_triangulation<NT>& t, const std::vector<Wide>& s, const Loop_system& loops)
+    : t_(t), s_(s), half_turn_(t.number_of_halfedges()), frame_(t.number_of_vertices(), Motion::identity())
   {
     find_directions();
     for(const Index h : loops.tree)
@@ -84,7 +82,7 @@ private:
   // The halves of the angles from the first halfedge of a vertex to the others, counterclockwise.
   void find_directions()
   {
-    const std::vector<Complex> half_corner = half_corners(metric_);
+    const std::vector<Complex> half_corner = half_corners(t_, s_);
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
     {
       Complex turn{Wide(1), Wide(0)};
@@ -99,13 +97,13 @@ private:
   // From the frame of the origin of h to that of its target.
   Motion along(Index h) const
   {
-    const Wide x = metric_.wide_half_sinh(h);
+    const Wide x = wide_length(t_, s_, h);
     const Complex back = half_turn_[t_.twin(h)] * Complex{Wide(0), Wide(1)}; // by pi more than the direction of the twin
     return Motion::rotation(half_turn_[h]) * Motion::translation(x, hyperbolic_cosine(x)) * Motion::rotation(conj(back));
   }
 
-  const Hyperbolic_metric<NT>& metric_;
   const Intrinsic_triangulation<NT>& t_;
+  const std::vector<Wide>& s_;
   std::vector<Complex> half_turn_; // by halfedge: e^{i theta / 2}
   std::vector<Motion> frame_;
 };

@@ -8,6 +8,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_HYPERBOLIC_HYPERBOLIC_LINEAR_SOLVER_H
 
 #include <CGAL/Conformal_equivalence/Statistics.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Conjugate_gradients.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
@@ -15,8 +16,6 @@
 
 #include <Eigen/SparseCore>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -37,8 +36,6 @@ struct Coupled_vertices
 class Hyperbolic_linear_solver
 {
 public:
-  typedef std::uint32_t Index;
-
   Hyperbolic_linear_solver(std::unique_ptr<Factorization> factorization, Statistics& statistics)
     : factorization_(std::move(factorization)), statistics_(statistics)
   {}
@@ -101,84 +98,23 @@ private:
   // From d = 0. Returns whether the tolerance was met. If `may_give_up` they end as soon as it is foreseen that `most` iterations do not do.
   bool conjugate_gradients(const Vertex_vector& b, double tolerance, std::size_t most, bool may_give_up, Vertex_vector& d)
   {
-    const double goal = tolerance * largest_entry(b);
-    double rz = 0;
-    std::vector<double> sizes(1, largest_entry(b)); // of the residual
-    r_ = b;
-    d.assign(b.size(), 0.);
-    for(std::size_t iteration = 0; iteration < most && sizes.back() > goal; ++iteration)
-    {
-      ++statistics_.number_of_linear_iterations;
-      if(!precondition())
-        return false;
-      const double rz_new = dot(r_, z_);
-      if(!(rz_new > 0))
-        return false;
-      if(iteration == 0)
-        p_ = z_;
-      else
-        for(std::size_t v = 0; v < p_.size(); ++v)
-          p_[v] = z_[v] + rz_new / rz * p_[v];
-      rz = rz_new;
-      multiply(p_, q_);
-      const double curvature = dot(p_, q_);
-      if(!(curvature > 0)) // by rounding; what the factor says points downhill
-      {
-        if(iteration == 0)
-          d = p_;
-        return false;
-      }
-      const double step = rz / curvature;
-      for(std::size_t v = 0; v < d.size(); ++v)
-      {
-        d[v] += step * p_[v];
-        r_[v] -= step * q_[v];
-      }
-      sizes.push_back(largest_entry(r_));
-      if(may_give_up && is_too_slow(sizes, goal, most))
-        return false;
-    }
-    return sizes.back() <= goal;
+    bool converged;
+    statistics_.number_of_linear_iterations += iteration_.solve(*this, b, tolerance, most, may_give_up, d, converged);
+    return converged;
   }
 
-  // Would more than `most` iterations be needed, if each gained as much as the last three have done? (The first ones gain otherwise.)
-  static bool is_too_slow(const std::vector<double>& sizes, double goal, std::size_t most)
-  {
-    const std::size_t n = sizes.size() - 1, first_judged = 4, span = 3;
-    if(n < first_judged || sizes.back() <= goal)
-      return false;
-    const double gain = std::log(sizes[n - span] / sizes[n]) / double(span);
-    return !(gain > 0 && double(n) + std::log(sizes[n] / goal) / gain <= double(most) + 1);
-  }
+  friend class Conjugate_gradients;
 
   void multiply(const Vertex_vector& x, Vertex_vector& y) const
   {
-    y.resize(x.size());
+    graph_.multiply(matrix_->coupling, x, y);
     for(std::size_t v = 0; v < x.size(); ++v)
-      y[v] = matrix_->own[v] * x[v];
-    for(std::size_t e = 0; e < graph_.ends.size(); ++e)
-    {
-      const double flux = matrix_->coupling[e] * (x[graph_.ends[e].first] - x[graph_.ends[e].second]) / 2;
-      y[graph_.ends[e].first] += flux;
-      y[graph_.ends[e].second] -= flux;
-    }
-    graph_.clear_fixed(y);
+      y[v] += matrix_->own[v] * x[v]; // which is 0 where it is fixed
   }
 
-  // z from r, with the factor
-  bool precondition()
+  bool precondition(const Vertex_vector& r, Vertex_vector& z)
   {
-    free_.resize(graph_.number_of_free);
-    for(std::size_t v = 0; v < r_.size(); ++v)
-      if(graph_.is_free(Index(v)))
-        free_[graph_.free_index[v]] = r_[v];
-    if(!factorization_->precondition(free_))
-      return false;
-    z_.assign(r_.size(), 0.);
-    for(std::size_t v = 0; v < r_.size(); ++v)
-      if(graph_.is_free(Index(v)))
-        z_[v] = free_[graph_.free_index[v]];
-    return true;
+    return replace_free_entries(graph_, r, free_, z, [this](std::vector<double>& free) { return factorization_->precondition(free); });
   }
 
   std::unique_ptr<Factorization> factorization_;
@@ -187,8 +123,8 @@ private:
   const Coupled_vertices* matrix_ = nullptr;
   std::size_t number_of_flips_ = 0;
   bool is_pattern_known_ = false, has_factor_ = false;
-  Vertex_vector r_, z_, p_, q_; // of conjugate gradients, which allocate them once
-  std::vector<double> free_;    // by free vertex: what is solved for
+  Conjugate_gradients iteration_;
+  std::vector<double> free_; // by free vertex: what is solved for
 };
 
 } // namespace internal

@@ -111,6 +111,19 @@ public:
     return std::move(metric_);
   }
 
+  // Gives the factors s of the metric `found` by find(), which was a success, more digits, until the residual is within `goal`, or there is nothing
+  // to gain. Each step gains a dozen. Returns the residual.
+  template <typename Number>
+  Number improve(const Metric& found, std::vector<Number>& s, const Number& goal)
+  {
+    Scaled_vector residual = hyperbolic_residual(found.triangulation, s, conditions_);
+    Number size = residual.template largest<Number>();
+    const int most_steps = 100;
+    double longest = 0;
+    for(int step = 0; step < most_steps && size > goal && add_step(found.triangulation, residual, size, s, longest); ++step) {}
+    return size;
+  }
+
 private:
   void run()
   {
@@ -192,23 +205,37 @@ private:
   // Below this a residual cannot be told from rounding.
   double rounding_floor() const
   {
+    const std::vector<double> sensitivity = energy_->sensitivities();
     double largest = 0;
     for(Index v = 0; v < target_.size(); ++v)
       if(graph_.is_free(v))
-        largest = (std::max)(largest, energy_->sensitivities()[v]);
+        largest = (std::max)(largest, sensitivity[v]);
     return 4 * std::numeric_limits<double>::epsilon() * largest;
+  }
+
+  // The same, found once, as it costs as much as an evaluation, when the residual is near to it.
+  double known_floor(double size)
+  {
+    double& floor = metric_.statistics.residual_floor;
+    if(floor == 0 && size <= 1e-4)
+      floor = rounding_floor();
+    return floor;
   }
 
   // d = H^-1 r on the free vertices, with the Hessian where the energy was last evaluated.
   bool solve(const Vertex_vector& r, double tolerance, Vertex_vector& d)
   {
-    if(is_moved_)
-    {
-      hessian_ = energy_->hessian();
-      linear_.set_matrix(metric_.triangulation, energy_->number_of_changes(), hessian_);
-      is_moved_ = false;
-    }
+    prepare_matrix();
     return linear_.solve(r, tolerance, d);
+  }
+
+  void prepare_matrix()
+  {
+    if(!is_moved_)
+      return;
+    hessian_ = energy_->hessian();
+    linear_.set_matrix(metric_.triangulation, energy_->number_of_changes(), hessian_);
+    is_moved_ = false;
   }
 
   // How accurately the next step is solved for, as in the plane: not to spoil quadratic convergence.
@@ -241,14 +268,14 @@ private:
   Status minimize(double tolerance)
   {
     Vertex_vector r, d;
+    metric_.statistics.residual_floor = 0; // not known yet
     double size = evaluate(u_, r);
     for(; ; ++metric_.statistics.number_of_iterations)
     {
       record(size);
       if(!std::isfinite(size))
         return Status::ITERATIONS_EXHAUSTED;
-      metric_.statistics.residual_floor = rounding_floor();
-      if(size <= (std::max)(tolerance, metric_.statistics.residual_floor))
+      if(size <= (std::max)(tolerance, known_floor(size)))
         return Status::OK;
       if(!options_.visitor.go_further())
         return Status::STOPPED_BY_VISITOR;
@@ -257,7 +284,7 @@ private:
       if(!solve(r, forcing_term(tolerance), d))
         return Status::SINGULAR_PROBLEM;
       if(!step(d, r, size))
-        return size <= 10 * metric_.statistics.residual_floor ? Status::OK : Status::ITERATIONS_EXHAUSTED;
+        return size <= 10 * rounding_floor() ? Status::OK : Status::ITERATIONS_EXHAUSTED;
     }
   }
 
@@ -316,7 +343,7 @@ private:
       Scaled_vector residual = hyperbolic_residual(metric_.triangulation, s, conditions_);
       size = residual.template largest<Wide>();
       double longest = 0; // of all entries of the last step
-      for(int step = 0; step < most_steps && size > goal && add_step(residual, size, s, longest); ++step)
+      for(int step = 0; step < most_steps && size > goal && add_step(metric_.triangulation, residual, size, s, longest); ++step)
         if(longest > 1e-12 && move_energy_to(s)) // that far the Hessian is another one
         {
           residual = hyperbolic_residual(metric_.triangulation, s, conditions_);
@@ -348,7 +375,8 @@ private:
   }
 
   // One step, if it makes the residual smaller. Returns whether that is less than half of what it was.
-  bool add_step(Scaled_vector& residual, Wide& size, std::vector<Wide>& s, double& longest)
+  template <typename Number>
+  bool add_step(const Intrinsic_triangulation<NT>& t, Scaled_vector& residual, Number& size, std::vector<Number>& s, double& longest)
   {
     using std::ldexp;
     Vertex_vector right = residual.entries, d;
@@ -358,15 +386,15 @@ private:
     if(!solve(right, tolerance, d))
       return false;
     longest = std::ldexp(largest_entry(d), residual.exponent);
-    std::vector<Wide> moved = s;
+    std::vector<Number> moved = s;
     for(Index v = 0; v < d.size(); ++v)
       if(d[v] != 0)
       {
-        const Wide step = ldexp(Wide(d[v]), residual.exponent);
+        const Number step = ldexp(Number(d[v]), residual.exponent);
         moved[v] = factor_after_step(s[v], step);
       }
-    Scaled_vector next = hyperbolic_residual(metric_.triangulation, moved, conditions_);
-    const Wide next_size = next.template largest<Wide>();
+    Scaled_vector next = hyperbolic_residual(t, moved, conditions_);
+    const Number next_size = next.template largest<Number>();
     if(!(next_size < size))
       return false;
     const bool is_worth_it = next_size < size / 2;
@@ -389,6 +417,7 @@ private:
       metric_.scale_factors.clear();
       return;
     }
+    prepare_matrix(); // for improve(): the triangulation is about to be handed over
     for(const Wide& s : metric_.scale_factors)
       metric_.log_scale_factors.push_back(logarithm_of_factor<NT>(s));
     judge();

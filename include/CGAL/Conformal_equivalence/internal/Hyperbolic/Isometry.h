@@ -52,6 +52,13 @@ struct Isometry
     return (std::max)({std::abs(static_cast<double>(NT(s * a.re - 1))), std::abs(static_cast<double>(a.im)), size_of(b)});
   }
 
+  // With numbers of another type, as `convert` makes them of these.
+  template <typename Other, typename Function>
+  Isometry<Other> converted(const Function& convert) const
+  {
+    return Isometry<Other>{{convert(a.re), convert(a.im)}, {convert(b.re), convert(b.im)}};
+  }
+
 private:
   Isometry normalized() const
   {

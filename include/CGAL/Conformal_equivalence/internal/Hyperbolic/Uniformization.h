@@ -21,9 +21,11 @@
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/Loop_system.h>
 #include <CGAL/Conformal_equivalence/internal/Hyperbolic/words.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Complex_number.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Precise_number.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
+#include <CGAL/Conformal_equivalence/internal/cold_code.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <algorithm>
@@ -85,7 +87,8 @@ private:
                  std::unique_ptr<Factorization> factorization)
     : given_(t)
   {
-    result_.metric = Hyperbolic_metric_finder<double>(t, conditions, options, std::move(factorization)).find();
+    Hyperbolic_metric_finder<double> finder(t, conditions, options, std::move(factorization));
+    result_.metric = finder.find();
     result_.set_outcome(result_.metric);
     if(!bool(result_))
       return;
@@ -98,7 +101,7 @@ private:
     options.visitor.on_stage(Stage::LAYOUT);
     const std::vector<char> is_cone = cones(conditions);
     if(pieces.components.front().number_of_borders == 0 && std::count(is_cone.begin(), is_cone.end(), 1) == 0)
-      lay_out();
+      lay_out(finder);
     else
       develop(is_cone, conditions);
     result_.metric.statistics.seconds.layout = stopwatch.seconds();
@@ -120,7 +123,7 @@ private:
 
   static Hyperbolic_uniformization::Motion rounded(const Motion& m) { return {rounded(m.a), rounded(m.b)}; }
 
-  void lay_out()
+  void lay_out(Hyperbolic_metric_finder<double>& finder)
   {
     const Triangulation& t = result_.metric.triangulation;
     std::vector<double> lengths;
@@ -128,7 +131,11 @@ private:
       lengths.push_back(result_.metric.length(t.edge_halfedge(e)));
     const Index number_of_bases = 10; // loops are much shorter from a good one
     Loop_system loops = Loop_system::shortest_of(t.with_lengths(std::move(lengths)), number_of_bases);
-    Hyperbolic_layout<double> layout(result_.metric, loops);
+    Hyperbolic_layout<double, Wide> layout(t, result_.metric.scale_factors, loops);
+    result_.relation_error = error_of(loops.relation, layout.generator);
+    const double accurate_enough = 1e-12; // beside translations, none of which is as short
+    if(!(result_.relation_error <= accurate_enough))
+      lay_out_with_more_digits(finder, loops, accurate_enough, layout);
     for(const Motion& frame : layout.frame)
       result_.vertex_points.push_back(rounded(frame.center()));
     for(const Motion& g : layout.generator)
@@ -144,6 +151,45 @@ private:
     find_corners(original, layout.frame, deck, loops.tree.empty() ? 0 : t.origin(loops.tree.front()));
     result_.wide_generators = std::move(layout.generator);
     result_.wide_frames = std::move(layout.frame);
+  }
+
+  template <typename Number>
+  static double error_of(const Word& relation, const std::vector<Isometry<Number> >& generators)
+  {
+    Letter_values<Isometry<Number> > values(generators.size(), Isometry<Number>::identity());
+    for(std::size_t n = 0; n < generators.size(); ++n)
+      values.set(std::int32_t(n + 1), generators[n]);
+    return values(relation).distance_from_identity();
+  }
+
+  // In long words errors are multiplied by the sizes of all that stands before: for a hundred handles, two `double` may not do. Then the metric gets
+  // more digits, and more again, as long as numbers have them. What is laid out is kept if it is better than what was there.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
+  void lay_out_with_more_digits(Hyperbolic_metric_finder<double>& finder, const Loop_system& loops, double accurate_enough,
+                                Hyperbolic_layout<double, Wide>& layout)
+  {
+    const auto precise = [](const Wide& x) { return Precise_number(x.hi) + Precise_number(x.lo); };
+    const auto wide = [](const Precise_number& x) { return From_precise<Wide>()(x); };
+    std::vector<Precise_number> s;
+    for(const Wide& x : result_.metric.scale_factors)
+      s.push_back(precise(x));
+    for(const double goal : {1e-60, 1e-120, 1e-240})
+    {
+      finder.improve(result_.metric, s, Precise_number(goal));
+      Hyperbolic_layout<double, Precise_number> found(result_.metric.triangulation, s, loops);
+      const double error = error_of(loops.relation, found.generator);
+      if(error < result_.relation_error)
+      {
+        result_.relation_error = error;
+        for(std::size_t n = 0; n < found.generator.size(); ++n)
+          layout.generator[n] = found.generator[n].template converted<Wide>(wide);
+        for(std::size_t v = 0; v < found.frame.size(); ++v)
+          layout.frame[v] = found.frame[v].template converted<Wide>(wide);
+        result_.precise_generators = std::move(found.generator);
+      }
+      if(result_.relation_error <= accurate_enough)
+        return;
+    }
   }
 
   // With cones or borders: no group, but a disk.
@@ -169,7 +215,6 @@ private:
   void find_canonical_generators(const Word& relation, Word_values<Motion>& deck)
   {
     result_.canonical_words = canonical_generators(relation);
-    result_.relation_error = deck(relation).distance_from_identity();
     for(const Word& w : result_.canonical_words)
       result_.canonical_generators.push_back(rounded(deck(w)));
   }

@@ -16,6 +16,7 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -46,13 +47,14 @@ inline Exact_isometry with_equal_traces(const Exact_isometry& x, const Exact_iso
 }
 
 // B (2 X - tr X)^-1 for the matrices of B and X = A^-1, up to a positive or negative factor, rounded.
-inline Exact_isometry rounded_quotient_by_twist(const Isometry<Double_double>& a, const Isometry<Double_double>& b, int bits)
+template <typename Wide>
+Exact_isometry rounded_quotient_by_twist(const Isometry<Wide>& a, const Isometry<Wide>& b, int bits)
 {
-  typedef Double_double Wide;
+  using std::sqrt;
   // 2 X - tr X has the entries of X off the diagonal, twice, and no trace: in the disk it is 2 (i Im a, b), and its inverse is a multiple of itself
   const Isometry<Wide> x = a.inverse();
   const Complex_number<Wide> c{Wide(0), x.a.im}, d = x.b;
-  Wide size = sqrt(Wide(x.a.im * x.a.im + square_norm(d)));
+  const Wide size = sqrt(Wide(x.a.im * x.a.im + square_norm(d)));
   const Wide unit = 1 / size;
   const Isometry<Wide> n{unit * (b.a * c + b.b * conj(d)), unit * (b.a * d + b.b * conj(c))};
   return Exact_isometry::rounded(n, bits);
@@ -80,17 +82,21 @@ inline bool split_off_best(Word& relation, Interleaved_pair& pair, const Letter_
   return least < std::numeric_limits<double>::infinity();
 }
 
-// The exact matrices; none if rounding was too coarse.
-inline std::vector<Exact_isometry> exact_generators(const std::vector<Isometry<Double_double> >& given, Word relation, int bits)
+// The exact matrices; none if rounding was too coarse. `rough` are the generators, and `given` the same with as many digits as are known.
+template <typename Wide>
+std::vector<Exact_isometry> exact_generators(const std::vector<Isometry<Double_double> >& rough, const std::vector<Isometry<Wide> >& given,
+                                             Word relation, int bits)
 {
   typedef Rational_numerator Integer;
   const std::vector<Exact_isometry> none;
   const Word whole = relation;
   Letter_values<Isometry<Double_double> > rough_values(given.size(), Isometry<Double_double>::identity());
+  Letter_values<Isometry<Wide> > given_values(given.size(), Isometry<Wide>::identity());
   Letter_values<Exact_isometry> values(given.size(), Exact_isometry::identity());
   for(std::size_t n = 0; n < given.size(); ++n)
   {
-    rough_values.set(std::int32_t(n + 1), given[n]);
+    rough_values.set(std::int32_t(n + 1), rough[n]);
+    given_values.set(std::int32_t(n + 1), given[n]);
     values.set(std::int32_t(n + 1), Exact_isometry::rounded(given[n], bits).reduced());
   }
 
@@ -106,7 +112,7 @@ inline std::vector<Exact_isometry> exact_generators(const std::vector<Isometry<D
     if(letter > 0)
       k = k * values[letter].determinant();
   }
-  const Isometry<Double_double> a = rough_values(pair.a()), b = rough_values(pair.b());
+  const Isometry<Wide> a = given_values(pair.a()), b = given_values(pair.b());
   const Exact_isometry x = with_equal_traces(Exact_isometry::rounded(a.inverse(), bits), m, k);
   const Exact_isometry twist = rounded_quotient_by_twist(a, b, bits);
   const Exact_isometry left = matrix_product(matrix_product(x, m), twist), right = matrix_product(twist, x.inverse());

@@ -70,13 +70,9 @@ public:
     return letter > 0 ? generator_[std::size_t(letter - 1)] : inverse_[std::size_t(-letter - 1)];
   }
 
-  Element operator()(const Word& w) const
-  {
-    Element result = identity_;
-    for(const std::int32_t letter : w)
-      result = result * (*this)[letter];
-    return result;
-  }
+  Element operator()(const Word& w) const { return product_of_letters(w, *this); }
+
+  const Element& identity() const { return identity_; }
 
   const std::vector<Element>& generators() const { return generator_; }
 
@@ -84,6 +80,15 @@ private:
   const Element identity_;
   std::vector<Element> generator_, inverse_;
 };
+
+template <typename Element>
+Element product_of_letters(const Word& w, const Letter_values<Element>& values)
+{
+  Element result = values.identity();
+  for(const std::int32_t letter : w)
+    result = result * values[letter];
+  return result;
+}
 
 // What words stand for in a group. Words that were asked for are remembered.
 template <typename Element>

@@ -9,6 +9,7 @@
 
 #include <CGAL/Conformal_equivalence/internal/Numbers/Double_double.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Exact_number.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Number_constants.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
@@ -58,6 +59,19 @@ public:
   /// n such that the number is m 2^n with m in [1/2, 1); 0 for 0
   int exponent() const { return mpfr_zero_p(x_) != 0 ? 0 : static_cast<int>(mpfr_get_exp(x_)); }
 
+  static Precise_number pi()
+  {
+    Precise_number result;
+    mpfr_const_pi(result.x_, MPFR_RNDN);
+    return result;
+  }
+
+  friend Precise_number operator-(const Precise_number& x)
+  {
+    Precise_number result(x);
+    mpfr_neg(result.x_, result.x_, MPFR_RNDN);
+    return result;
+  }
   friend Precise_number operator+(const Precise_number& x, const Precise_number& y) { return result_of(mpfr_add, x, y); }
   friend Precise_number operator-(const Precise_number& x, const Precise_number& y) { return result_of(mpfr_sub, x, y); }
   friend Precise_number operator*(const Precise_number& x, const Precise_number& y) { return result_of(mpfr_mul, x, y); }
@@ -65,6 +79,15 @@ public:
 
   friend bool operator<(const Precise_number& x, const Precise_number& y) { return mpfr_less_p(x.x_, y.x_) != 0; }
   friend bool operator>(const Precise_number& x, const Precise_number& y) { return y < x; }
+  friend bool operator==(const Precise_number& x, const Precise_number& y) { return mpfr_equal_p(x.x_, y.x_) != 0; }
+
+  friend Precise_number abs(const Precise_number& x) { return mpfr_signbit(x.x_) != 0 ? -x : x; }
+  friend Precise_number floor(const Precise_number& x)
+  {
+    Precise_number result;
+    mpfr_floor(result.x_, x.x_);
+    return result;
+  }
 
   friend Precise_number sqrt(const Precise_number& x)
   {
@@ -77,6 +100,11 @@ public:
     Precise_number result;
     mpfr_mul_2si(result.x_, x.x_, n, MPFR_RNDN);
     return result;
+  }
+  friend Precise_number frexp(const Precise_number& x, int* n)
+  {
+    *n = x.exponent();
+    return ldexp(x, -*n);
   }
 
 private:
@@ -91,6 +119,12 @@ private:
   }
 
   mpfr_t x_;
+};
+
+template <>
+struct Number_constants<Precise_number>
+{
+  static Precise_number pi() { return Precise_number::pi(); }
 };
 
 struct To_precise

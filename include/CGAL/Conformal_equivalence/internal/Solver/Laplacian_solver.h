@@ -9,6 +9,7 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 
+#include <CGAL/Conformal_equivalence/internal/Solver/Conjugate_gradients.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 
@@ -97,6 +98,26 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
   a.outerIndexPtr()[n] = end;
   a.resizeNonZeros(end);
   return a;
+}
+
+// At free vertices that are not held x is what `replace` makes of the entries of b, by free vertex, of which it returns whether it could; elsewhere
+// 0. `free` is room for these.
+template <typename Function>
+bool replace_free_entries(const Edge_graph& graph, const Vertex_vector& b, std::vector<double>& free, Vertex_vector& x, const Function& replace)
+{
+  x.assign(b.size(), 0.);
+  if(graph.number_of_free == 0)
+    return true;
+  free.resize(graph.number_of_free);
+  for(std::size_t v = 0; v < b.size(); ++v)
+    if(graph.is_free(std::uint32_t(v)))
+      free[graph.free_index[v]] = b[v];
+  if(!replace(free))
+    return false;
+  for(std::size_t v = 0; v < b.size(); ++v)
+    if(graph.is_free(std::uint32_t(v)) && !graph.is_held(std::uint32_t(v)))
+      x[v] = free[graph.free_index[v]];
+  return true;
 }
 
 // Systems A x = b for changing A: a kept factor and preconditioned conjugate gradients.
@@ -198,82 +219,42 @@ public:
   std::size_t conjugate_gradients(const std::vector<double>& w, const Vertex_vector& b, double tolerance,
                                   std::size_t most, bool may_give_up, Vertex_vector& x, bool& converged)
   {
-    std::size_t rows = 0;
-    const Vertex_vector shift = regularization(graph_, w, rows);
-    const double goal = tolerance * largest_entry(b);
-    r_ = b;
-    Vertex_vector sizes; // of the residual
-    double rz = 0;
     x.assign(b.size(), 0.);
-    converged = graph_.number_of_free == 0 || goal == 0;
-    if(!converged && !has_factor_ && !factorize(w))
+    converged = graph_.number_of_free == 0 || tolerance * largest_entry(b) == 0;
+    if(converged || (!has_factor_ && !factorize(w)))
       return 0;
-    std::size_t iteration = 0;
-    for(; !converged && iteration < most; ++iteration)
-    {
-      if(!precondition(r_, z_))
-        break;
-      const double rz_new = dot(r_, z_);
-      if(iteration == 0)
-        p_ = z_;
-      else
-        for(std::size_t v = 0; v < p_.size(); ++v)
-          p_[v] = z_[v] + rz_new / rz * p_[v];
-      rz = rz_new;
-
-      graph_.multiply(w, p_, q_);
-      if(rows > 0)
-        for(std::size_t v = 0; v < q_.size(); ++v)
-          q_[v] += shift[v] * p_[v];
-      const double curvature = dot(p_, q_);
-      if(!(curvature > 1e-14 * std::abs(rz))) // flat: nothing is known about this direction
-      {
-        if(iteration == 0)
-          x = p_;
-        return iteration + 1;
-      }
-      const double step = rz / curvature;
-      for(std::size_t v = 0; v < x.size(); ++v)
-      {
-        x[v] += step * p_[v];
-        r_[v] -= step * q_[v];
-      }
-      sizes.push_back(largest_entry(r_));
-      converged = sizes.back() <= goal;
-      if(may_give_up && is_too_slow(sizes, goal, most))
-        return iteration + 1;
-    }
-    return iteration;
+    System system(*this, w);
+    return iteration_.solve(system, b, tolerance, most, may_give_up, x, converged);
   }
 
 private:
-  // Would more than `most` iterations be needed, if each gained as much as the last three have done? (The first ones gain otherwise.)
-  static bool is_too_slow(const std::vector<double>& sizes, double goal, std::size_t most)
+  // A(w), regularized, and the kept factor.
+  class System
   {
-    const std::size_t n = sizes.size(), first_judged = 5, span = 3;
-    if(n < first_judged || sizes.back() <= goal)
-      return false;
-    const double gain = std::log(sizes[n - 1 - span] / sizes.back()) / double(span);
-    return !(double(n) + std::log(sizes.back() / goal) / gain <= double(most)) || !(gain > 0);
-  }
+  public:
+    System(Laplacian_solver& solver, const std::vector<double>& w) : solver_(solver), w_(w), shift_(regularization(solver.graph_, w, rows_)) {}
 
-  // The free vertices that are not held become what `replace` makes of the free ones.
+    bool precondition(const Vertex_vector& r, Vertex_vector& z) { return solver_.precondition(r, z); }
+
+    void multiply(const Vertex_vector& x, Vertex_vector& y) const
+    {
+      solver_.graph_.multiply(w_, x, y);
+      if(rows_ > 0)
+        for(std::size_t v = 0; v < y.size(); ++v)
+          y[v] += shift_[v] * x[v];
+    }
+
+  private:
+    Laplacian_solver& solver_;
+    const std::vector<double>& w_;
+    std::size_t rows_ = 0; // that are regularized
+    const Vertex_vector shift_;
+  };
+
   template <typename Function>
   bool apply_factor(const Vertex_vector& b, Vertex_vector& x, const Function& replace)
   {
-    x.assign(b.size(), 0.);
-    if(graph_.number_of_free == 0)
-      return true;
-    free_.resize(graph_.number_of_free);
-    for(std::size_t v = 0; v < b.size(); ++v)
-      if(graph_.is_free(std::uint32_t(v)))
-        free_[graph_.free_index[v]] = b[v];
-    if(!replace(free_))
-      return false;
-    for(std::size_t v = 0; v < b.size(); ++v)
-      if(graph_.is_free(std::uint32_t(v)) && !graph_.is_held(std::uint32_t(v)))
-        x[v] = free_[graph_.free_index[v]];
-    return true;
+    return replace_free_entries(graph_, b, free_, x, replace);
   }
 
   // Positive weights of moderate range.
@@ -293,8 +274,8 @@ private:
   Edge_graph graph_;
   std::unique_ptr<Factorization> factor_;
   bool has_factor_ = false;
-  Vertex_vector r_, z_, p_, q_; // of conjugate gradients, which allocate them once
-  std::vector<double> free_;    // by free vertex: what is solved for
+  Conjugate_gradients iteration_;
+  std::vector<double> free_; // by free vertex: what is solved for
   std::size_t number_of_factorizations_ = 0, number_of_regularized_rows_ = 0;
 };
 

@@ -50,7 +50,7 @@ Incircle_form<Wide> wide_triangle(const Intrinsic_triangulation<NT>& t, const st
 template <typename Wide>
 class Wide_angle_sum
 {
-  template <int> friend class Wide_corner_vectors;
+  template <int, typename> friend class Wide_corner_vectors;
 
   Complex_number<Wide> z_{Wide(1), Wide(0)};
   int half_turns_ = 0;
@@ -133,10 +133,22 @@ void add_corners(const Intrinsic_triangulation<NT>& t, std::uint32_t f, const Wi
   add_corners(t, f, Incircle_form<Wide>(a, b, c), sum);
 }
 
+// How triangles are found from what is known of their sides: as many numbers of each, one after the other.
+struct Flat_triangles
+{
+  static constexpr int numbers_per_side = 1; // the length
+  template <int bytes> using Vectors = Wide_incircle_vectors<bytes>;
+
+  static Incircle_form<Double_double> triangle(const Double_double* a, const Double_double* b, const Double_double* c)
+  {
+    return Incircle_form<Double_double>(*a, *b, *c);
+  }
+};
+
 // The same for `Double_double`, by vectors: of a few triangles, and then, triangle by triangle, of its three corners, which are added to three
 // products. To the same bits, unless the program is compiled for fused multiplications. As with `Incircle_vectors`, triangles that need care
 // are left to the functions above.
-template <int bytes>
+template <int bytes, typename Triangles = Flat_triangles>
 class Wide_corner_vectors
 {
   typedef Double_double_vector<bytes>               Numbers;
@@ -150,38 +162,51 @@ public:
 
   // The blocks of triangles from `first` to `last`, as many as there are lanes in each.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void compute_blocks(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t first, std::uint32_t last,
+  void compute_blocks(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t first, std::uint32_t last,
                       Wide_corner_vectors* corners)
   {
     for(std::uint32_t b = first; b < last; ++b)
-      corners[b - first].compute(t, length, b * lanes, Lanes());
+      corners[b - first].compute(t, sides, b * lanes);
   }
 
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void add_blocks(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t first, std::uint32_t last,
+  void add_blocks(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t first, std::uint32_t last,
                   const Wide_corner_vectors* corners, Sums& sums)
   {
     for(std::uint32_t b = first; b < last; ++b)
       for(int i = 0; i < lanes; ++i)
-        corners[b - first].add(t, length, b * lanes + std::uint32_t(i), i, sums);
+        corners[b - first].add(t, sides, b * lanes + std::uint32_t(i), i, sums);
+  }
+
+  // The corners of f alone.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
+  static void add_one(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t f, Sums& sums)
+  {
+    add_corners(t, f, Triangles::triangle(side_of(t, sides, 3 * f), side_of(t, sides, 3 * f + 1), side_of(t, sides, 3 * f + 2)), sums);
   }
 
 private:
-  // The scaled lengths of the sides k of the triangles from f on.
-  template <int... i>
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void load_sides(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t h, Numbers& side, std::integer_sequence<int, i...>)
+  static const Double_double* side_of(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t h)
   {
-    const Double_double* const l[] = {&length[t.edge(h + 3 * i)]...};
-    side.load({l[i]->hi...}, {l[i]->lo...});
+    return &sides[Triangles::numbers_per_side * std::size_t(t.edge(h))];
   }
 
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, Lanes)
+  // The numbers of the sides of h, h + 3, ...
+  template <int... i>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void load_sides(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t h, Numbers* side, std::integer_sequence<int, i...>)
   {
-    Numbers side[3], r;
+    const Double_double* const l[] = {side_of(t, sides, h + 3 * i)...};
+    for(int n = 0; n < Triangles::numbers_per_side; ++n)
+      side[3 * n].load({l[i][n].hi...}, {l[i][n].lo...});
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t f)
+  {
+    Numbers side[3 * Triangles::numbers_per_side], r;
     for(std::uint32_t k = 0; k < 3; ++k)
-      load_sides(t, length, 3 * f + k, side[k], Lanes());
-    Wide_incircle_vectors<bytes> triangle(side);
+      load_sides(t, sides, 3 * f + k, side + k, Lanes());
+    typename Triangles::template Vectors<bytes> triangle(side);
     const Vector unit = 1. / triangle.s.hi;
     Vector plain;
     triangle.set_plain(plain);
@@ -196,19 +221,13 @@ private:
     }
   }
 
-  CGAL_CONFORMAL_EQUIVALENCE_COLD
-  static void add_one(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, Sums& sums)
-  {
-    add_corners(t, f, length[t.edge(3 * f)], length[t.edge(3 * f + 1)], length[t.edge(3 * f + 2)], sums);
-  }
-
   // Triangle i, which is f.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE
-  void add(const Triangulation& t, const std::vector<Double_double>& length, std::uint32_t f, int i, Sums& sums) const
+  void add(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t f, int i, Sums& sums) const
   {
     const std::uint32_t v[] = {t.apex(3 * f), t.apex(3 * f + 1), t.apex(3 * f + 2)};
     if(is_plain_[i] == 0 || v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
-      return add_one(t, length, f, sums);
+      return add_one(t, sides, f, sums);
     Wide_angle_sum<Double_double> none;
     Wide_angle_sum<Double_double>* const sum[] = {&sums[v[0]], &sums[v[1]], &sums[v[2]], &none};
     const double x_hi[] = {x_hi_[0][i], x_hi_[1][i], x_hi_[2][i], 1}, x_lo[] = {x_lo_[0][i], x_lo_[1][i], x_lo_[2][i], 0};
@@ -303,33 +322,41 @@ private:
 };
 
 // The entries of the above, for vectors of either width.
-template <int bytes>
+template <int bytes, typename Triangles = Flat_triangles>
 struct Wide_vectors
 {
   typedef Intrinsic_triangulation<double>             Triangulation;
   typedef std::vector<Double_double>                  Numbers;
   typedef std::vector<Wide_angle_sum<Double_double> > Sums;
   typedef std::uint32_t                               Index;
-  typedef Wide_corner_vectors<bytes>                  Corners;
+  typedef Wide_corner_vectors<bytes, Triangles>       Corners;
 
   static void set_lengths(const Triangulation& t, const Numbers& s, Index first, Index last, Numbers& result)
   {
     Wide_length_vectors<bytes>::set_lengths(t, s, first, last, result);
   }
 
-  static void compute(const Triangulation& t, const Numbers& length, Index first, Index last, Corners* corners)
+  static void compute(const Triangulation& t, const Numbers& sides, Index first, Index last, Corners* corners)
   {
-    Corners::compute_blocks(t, length, first, last, corners);
+    Corners::compute_blocks(t, sides, first, last, corners);
   }
 
-  static void add(const Triangulation& t, const Numbers& length, Index first, Index last, const Corners* corners, Sums& sums)
+  static void add(const Triangulation& t, const Numbers& sides, Index first, Index last, const Corners* corners, Sums& sums)
   {
-    Corners::add_blocks(t, length, first, last, corners, sums);
+    Corners::add_blocks(t, sides, first, last, corners, sums);
   }
 };
 
-struct Wide_vectors_with_avx2 : public Wide_vectors<32>
+template <typename Triangles = Flat_triangles>
+struct Wide_vectors_with_avx2 : public Wide_vectors<32, Triangles>
 {
+  typedef Wide_vectors<32, Triangles> Base;
+  using typename Base::Corners;
+  using typename Base::Index;
+  using typename Base::Numbers;
+  using typename Base::Sums;
+  using typename Base::Triangulation;
+
   CGAL_CONFORMAL_EQUIVALENCE_AVX2 static
   void set_lengths(const Triangulation& t, const Numbers& s, Index first, Index last, Numbers& result)
   {
@@ -337,15 +364,15 @@ struct Wide_vectors_with_avx2 : public Wide_vectors<32>
   }
 
   CGAL_CONFORMAL_EQUIVALENCE_AVX2 static
-  void compute(const Triangulation& t, const Numbers& length, Index first, Index last, Corners* corners)
+  void compute(const Triangulation& t, const Numbers& sides, Index first, Index last, Corners* corners)
   {
-    Corners::compute_blocks(t, length, first, last, corners);
+    Corners::compute_blocks(t, sides, first, last, corners);
   }
 
   CGAL_CONFORMAL_EQUIVALENCE_AVX2 static
-  void add(const Triangulation& t, const Numbers& length, Index first, Index last, const Corners* corners, Sums& sums)
+  void add(const Triangulation& t, const Numbers& sides, Index first, Index last, const Corners* corners, Sums& sums)
   {
-    Corners::add_blocks(t, length, first, last, corners, sums);
+    Corners::add_blocks(t, sides, first, last, corners, sums);
   }
 };
 
@@ -355,23 +382,19 @@ std::vector<Wide> wide_lengths(const Intrinsic_triangulation<NT>& t, const std::
 {
   std::vector<Wide> result(t.number_of_edges(), Wide(0));
   if constexpr(std::is_same<NT, double>::value && std::is_same<Wide, Double_double>::value)
-    (has_avx2() ? Wide_vectors_with_avx2::set_lengths : Wide_vectors<16>::set_lengths)(t, s, 0, t.number_of_edges(), result);
+    (has_avx2() ? Wide_vectors_with_avx2<>::set_lengths : Wide_vectors<16>::set_lengths)(t, s, 0, t.number_of_edges(), result);
   else
     set_wide_lengths(t, s, 0, t.number_of_edges(), result);
   return result;
 }
 
-// Lengths, and then corners of some thousand triangles at a time, are computed by several threads; the latter are added by one.
+// The corners of some thousand triangles at a time are computed by several threads, and added by one.
 template <typename Vectors>
-void add_wide_angles_by(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& s, std::vector<Double_double>& length,
-                        std::vector<Wide_angle_sum<Double_double> >& sum, const Concurrency& concurrency)
+void add_wide_corners_by(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& sides,
+                         std::vector<Wide_angle_sum<Double_double> >& sum, const Concurrency& concurrency)
 {
   typedef typename Vectors::Corners Corners;
   typedef std::uint32_t Index;
-  concurrency.for_each_range(t.number_of_edges(), [&](std::size_t first, std::size_t last)
-  {
-    Vectors::set_lengths(t, s, Index(first), Index(last), length);
-  });
   const Index all = t.number_of_faces() / Corners::lanes, many = (concurrency.is_sequential() ? 1024 : 65536) / Corners::lanes;
   std::vector<Corners> corners((std::min)(all, many));
   for(Index first = 0; first < all; first += many)
@@ -379,19 +402,32 @@ void add_wide_angles_by(const Intrinsic_triangulation<double>& t, const std::vec
     const Index n = (std::min)(many, all - first);
     concurrency.for_each_range(n, [&](std::size_t from, std::size_t to)
     {
-      Vectors::compute(t, length, first + Index(from), first + Index(to), corners.data() + from);
+      Vectors::compute(t, sides, first + Index(from), first + Index(to), corners.data() + from);
     });
-    Vectors::add(t, length, first, first + n, corners.data(), sum);
+    Vectors::add(t, sides, first, first + n, corners.data(), sum);
   }
   for(Index f = all * Corners::lanes; f < t.number_of_faces(); ++f)
-    add_corners(t, f, length[t.edge(3 * f)], length[t.edge(3 * f + 1)], length[t.edge(3 * f + 2)], sum);
+    Corners::add_one(t, sides, f, sum);
+}
+
+// Lengths are computed by several threads, too.
+template <typename Vectors>
+void add_wide_angles_by(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& s, std::vector<Double_double>& length,
+                        std::vector<Wide_angle_sum<Double_double> >& sum, const Concurrency& concurrency)
+{
+  typedef std::uint32_t Index;
+  concurrency.for_each_range(t.number_of_edges(), [&](std::size_t first, std::size_t last)
+  {
+    Vectors::set_lengths(t, s, Index(first), Index(last), length);
+  });
+  add_wide_corners_by<Vectors>(t, length, sum, concurrency);
 }
 
 inline void add_wide_angles(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& s, std::vector<Double_double>& length,
                             std::vector<Wide_angle_sum<Double_double> >& sum, const Concurrency& concurrency)
 {
   if(has_avx2())
-    add_wide_angles_by<Wide_vectors_with_avx2>(t, s, length, sum, concurrency);
+    add_wide_angles_by<Wide_vectors_with_avx2<> >(t, s, length, sum, concurrency);
   else
     add_wide_angles_by<Wide_vectors<16> >(t, s, length, sum, concurrency);
 }

@@ -14,61 +14,26 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// Angles and cotangents of a few triangles at once, by the formulas of `Incircle_form`. Triangles that need care, as they are broken, or sides differ
-// by some seventy orders of magnitude, are left to it.
-//
-// Errors, with u = 2^-53: the tangents s - a, ... have relative errors of 2u as functions of the sides, and s of 2u. So tan(alpha/2), the root
-// of three of these divided by the fourth, is off by 6.5u, or 7.5u where it is divided out. That moves alpha by 6.5u sin(alpha), and its
-// cotangent by 7.5u / sin(alpha). The arc tangent adds 5u, which is doubled, and the cotangent is rounded four times more. So errors of
-// angles are at most 17u, those of cotangents 8u / sin(alpha) + 4u |cot(alpha)|.
+// What the formulas of a few triangles at once have in common.
 template <int bytes>
-struct Incircle_vectors
+struct Triangle_vectors
 {
   typedef typename Vector_of<double, bytes>::type Vector;
   static constexpr int lanes = Vector_of<double, bytes>::lanes;
   typedef std::make_integer_sequence<int, lanes> Lanes;
 
-  // Opposite to side k of triangle i.
-  double angle[3][lanes], cotangent[3][lanes];
-  double is_plain[lanes]; // 1, or 0 where the triangle needs care; then the other numbers are without meaning
-
-  // Triangles by their sides.
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(const Vector& a, const Vector& b, const Vector& c)
-  {
-    Vector tangent[3], r, half;
-    set_tangent(a, b, c, tangent[0]);
-    set_tangent(b, c, a, tangent[1]);
-    set_tangent(c, a, b, tangent[2]);
-    const Vector s = (a + b + c) * 0.5, zero = {}, one = zero + 1.;
-    const Vector square = tangent[0] * tangent[1] * tangent[2] / s;
-    const auto is_safe = (tangent[0] > 0.) & (tangent[1] > 0.) & (tangent[2] > 0.) & (square > 1e-200) & (square < 1e200);
-    store(is_safe ? one : zero, is_plain);
-    set_root(is_safe ? square : one, r, Lanes());
-    for(int k = 0; k < 3; ++k)
-    {
-      const Vector q = r / tangent[k]; // tan(alpha / 2)
-      set_arc_tangent(r, tangent[k], half);
-      store(half + half, angle[k]);
-      store((1. - q) * (1. + q) / (q + q), cotangent[k]);
-    }
-  }
-
-private:
-  // half of b + c - a, as excess() has it
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_tangent(const Vector& a, const Vector& b, const Vector& c, Vector& result)
+  // b + c - a, as excess() has it
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_excess(const Vector& a, const Vector& b, const Vector& c, Vector& result)
   {
     const auto is_longer = b > c;
     const Vector longer = is_longer ? b : c, shorter = is_longer ? c : b;
-    result = ((longer - a) + shorter) * 0.5;
+    result = (longer - a) + shorter;
   }
 
-  template <int... i>
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_root(const Vector& square, Vector& result, std::integer_sequence<int, i...>)
-  {
-    double entries[lanes];
-    store(square, entries);
-    result = Vector{std::sqrt(entries[i])...};
-  }
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_root(const Vector& square, Vector& result) { set_root(square, result, Lanes()); }
+
+  // The cotangent of alpha, by tan(alpha / 2).
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_cotangent(const Vector& q, Vector& result) { result = (1. - q) * (1. + q) / (q + q); }
 
   // The argument of x + i y in the first quadrant. With q <= 1 the smaller of x and y, divided by the larger, its arc tangent is that of t = q,
   // or, beyond tan(pi/8), pi/4 and that of t = (q - 1) / (q + 1). The polynomial, which interpolates (atan(t)/t - 1)/t^2 at the zeros of a
@@ -93,6 +58,57 @@ private:
   }
 
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static void store(const Vector& v, double* p) { std::memcpy(p, &v, sizeof(v)); }
+
+private:
+  template <int... i>
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_root(const Vector& square, Vector& result, std::integer_sequence<int, i...>)
+  {
+    double entries[lanes];
+    store(square, entries);
+    result = Vector{std::sqrt(entries[i])...};
+  }
+};
+
+// Angles and cotangents of a few triangles at once, by the formulas of `Incircle_form`. Triangles that need care, as they are broken, or sides differ
+// by some seventy orders of magnitude, are left to it.
+//
+// Errors, with u = 2^-53: the tangents s - a, ... have relative errors of 2u as functions of the sides, and s of 2u. So tan(alpha/2), the root
+// of three of these divided by the fourth, is off by 6.5u, or 7.5u where it is divided out. That moves alpha by 6.5u sin(alpha), and its
+// cotangent by 7.5u / sin(alpha). The arc tangent adds 5u, which is doubled, and the cotangent is rounded four times more. So errors of
+// angles are at most 17u, those of cotangents 8u / sin(alpha) + 4u |cot(alpha)|.
+template <int bytes>
+struct Incircle_vectors : public Triangle_vectors<bytes>
+{
+  typedef Triangle_vectors<bytes> Base;
+  using typename Base::Vector;
+  using Base::lanes;
+
+  // Opposite to side k of triangle i.
+  double angle[3][lanes], cotangent[3][lanes];
+  double is_plain[lanes]; // 1, or 0 where the triangle needs care; then the other numbers are without meaning
+
+  // Triangles by their sides.
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(const Vector& a, const Vector& b, const Vector& c)
+  {
+    Vector tangent[3], r, half, cotangent_of_it;
+    Base::set_excess(a, b, c, tangent[0]);
+    Base::set_excess(b, c, a, tangent[1]);
+    Base::set_excess(c, a, b, tangent[2]);
+    for(int k = 0; k < 3; ++k)
+      tangent[k] *= 0.5;
+    const Vector s = (a + b + c) * 0.5, zero = {}, one = zero + 1.;
+    const Vector square = tangent[0] * tangent[1] * tangent[2] / s;
+    const auto is_safe = (tangent[0] > 0.) & (tangent[1] > 0.) & (tangent[2] > 0.) & (square > 1e-200) & (square < 1e200);
+    Base::store(is_safe ? one : zero, is_plain);
+    Base::set_root(is_safe ? square : one, r);
+    for(int k = 0; k < 3; ++k)
+    {
+      Base::set_arc_tangent(r, tangent[k], half);
+      Base::store(half + half, angle[k]);
+      Base::set_cotangent(r / tangent[k], cotangent_of_it); // r / (s - a) = tan(alpha / 2)
+      Base::store(cotangent_of_it, cotangent[k]);
+    }
+  }
 };
 
 } // namespace internal

@@ -12,8 +12,9 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// What is known of triangles, flat or hyperbolic (with hyperbolic sines in the place of lengths).
 template <int bytes>
-struct Wide_incircle_vectors
+struct Wide_incircle_results
 {
   typedef Double_double_vector<bytes> Numbers;
   typedef typename Numbers::Vector    Vector;
@@ -21,19 +22,6 @@ struct Wide_incircle_vectors
   Numbers tangent[3]; // from the corner opposite to each side to the inscribed circle
   Numbers s;          // half of the circumference
   Numbers square;     // of the radius of that circle
-
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE explicit Wide_incircle_vectors(const Numbers (&side)[3])
-  {
-    set_tangent(side[0], side[1], side[2], tangent[0]);
-    set_tangent(side[1], side[2], side[0], tangent[1]);
-    set_tangent(side[2], side[0], side[1], tangent[2]);
-    s.set_sum(side[0], side[1]);
-    s.set_sum(s, side[2]);
-    s.halve();
-    square.set_product(tangent[0], tangent[1]);
-    square.set_product(square, tangent[2]);
-    square.set_quotient(square, s);
-  }
 
   // 1 for triangles of which these numbers can be relied on, 0 for those that need care.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE void set_plain(Vector& result) const
@@ -52,9 +40,17 @@ struct Wide_incircle_vectors
     r.set_root(r);
   }
 
-private:
-  // half of b + c - a, as excess() has it
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_tangent(const Numbers& a, const Numbers& b, const Numbers& c, Numbers& result)
+protected:
+  // by `tangent` and `s`
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE void set_square()
+  {
+    square.set_product(tangent[0], tangent[1]);
+    square.set_product(square, tangent[2]);
+    square.set_quotient(square, s);
+  }
+
+  // b + c - a, as excess() has it
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_excess(const Numbers& a, const Numbers& b, const Numbers& c, Numbers& result)
   {
     const auto is_longer = (b.hi > c.hi) | ((b.hi == c.hi) & (b.lo > c.lo));
     Numbers longer, shorter;
@@ -62,7 +58,28 @@ private:
     shorter.select(is_longer, c, b);
     result.set_difference(longer, a);
     result.set_sum(result, shorter);
-    result.halve();
+  }
+};
+
+template <int bytes>
+struct Wide_incircle_vectors : public Wide_incircle_results<bytes>
+{
+  typedef Wide_incircle_results<bytes> Base;
+  using typename Base::Numbers;
+  using Base::s;
+  using Base::tangent;
+
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE explicit Wide_incircle_vectors(const Numbers (&side)[3])
+  {
+    for(int k = 0; k < 3; ++k)
+    {
+      Base::set_excess(side[k], side[(k + 1) % 3], side[(k + 2) % 3], tangent[k]);
+      tangent[k].halve();
+    }
+    s.set_sum(side[0], side[1]);
+    s.set_sum(s, side[2]);
+    s.halve();
+    Base::set_square();
   }
 };
 
