@@ -1,11 +1,12 @@
 // Copyright (c) 2026  The Conformal_equivalence developers.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// hyperbolic MESH...
+// hyperbolic [--header] MESH...
 //
 // Hyperbolic surfaces of closed meshes; those that are not connected or have a genus below 2 are passed over. `plate:N:G` is a thin plate of about
 // N vertices with G handles. Beside the seconds of the hyperbolic metric those of a Euclidean one of the same mesh, also with flips, whose
-// curvature is spread evenly over the vertices: processor seconds, the least of several runs, which take turns.
+// curvature is spread evenly over the vertices: processor seconds, the least of several runs, which take turns. --header: the head of
+// the table of rows.
 
 #include "../include/Processor_stopwatch.h"
 #include "../include/benchmark_meshes.h"
@@ -93,12 +94,14 @@ void print(const std::string& specification)
 
 int main(int argc, char* argv[])
 {
-  print_head({ "mesh", "vertices", "genus", "metric", "steps", "factors", "flips", "residual", "area error", "s", "s Euclidean", "ratio",
-               "s with layout", "relation error", "exact", "digits", "length difference", "s exact" });
   for(int i = 1; i < argc; ++i)
     try
     {
-      print(argv[i]);
+      if(std::string(argv[i]) == "--header")
+        print_head({ "mesh", "vertices", "genus", "metric", "steps", "factors", "flips", "residual", "area error", "s", "s Euclidean", "ratio",
+                     "s with layout", "relation error", "exact", "digits", "length difference", "s exact" });
+      else
+        print(argv[i]);
     }
     catch(const std::exception& e)
     {
