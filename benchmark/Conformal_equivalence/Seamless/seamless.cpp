@@ -90,7 +90,7 @@ void print_row(const std::string& name, std::size_t cones_of_handle, std::size_t
   CE::internal::Turned_handles chosen = turner.choose();
   const CE::internal::Turned_handles given = chosen;
   const Processor_stopwatch watch;
-  const bool is_found = bool(chosen) && bool(turner.turn(chosen, CE::internal::make_factorization<CE::Default_solver_traits>()));
+  const bool is_found = bool(chosen) && bool(turner.turn(chosen));
   const double seconds = watch.seconds();
   std::cout << "| " << name.substr(name.find_last_of('/') + 1) << " | " << p.t.number_of_vertices() << " | " << p.genus << " | "
             << p.cones.size() << " | " << p.metric.statistics.number_of_iterations << " | " << p.seconds << " | "
@@ -113,7 +113,7 @@ void print_row(const std::string& name, std::size_t cones_of_handle, std::size_t
     if(CE::internal::existence(signature) == CE::Surface_existence::IMPOSSIBLE)
       continue;
     ++number_of_tried;
-    if(bool(turner.turn(handles, CE::internal::make_factorization<CE::Default_solver_traits>())))
+    if(bool(turner.turn(handles)))
       steps.push_back(handles.number_of_steps);
   }
   std::cout << steps.size() << " of " << number_of_tried << " | " << median(steps) << " | "

@@ -13,6 +13,7 @@
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
@@ -42,6 +43,7 @@ Seamless_options read_seamless_options(const NamedParameters& np)
   options.maximum_distortion = choose_parameter(get_parameter(np, internal_np::conformal_maximum_distortion), options.maximum_distortion);
   options.is_lattice_coordinates = choose_parameter(get_parameter(np, internal_np::conformal_seamless_coordinates),
                                                     Seamless_coordinates::CARTESIAN) == Seamless_coordinates::LATTICE;
+  options.visitor = visitor_of(np);
   return result;
 }
 
