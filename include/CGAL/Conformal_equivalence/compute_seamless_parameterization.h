@@ -176,7 +176,10 @@ struct Loop_turning
 ///         tried); `SINGULAR_PROBLEM`.
 ///
 /// Time: that of `place_cones()` and `flatten()`, the factorization of a matrix of twice the size, a solution with it for each cone, and a search
-/// among lattice points that is bounded; with handles some ten to forty factorizations of a matrix of four times the size.
+/// among lattice points that is bounded; with handles one factorization, or a few, of a matrix of four times the size, and some conformal metrics.
+///
+/// A `visitor` that stops the search among lattice points is told so by `STOPPED_BY_VISITOR`, unless a layout has been found by then that
+/// is only to be proven the closest one: that is kept. Cones and handles are reported in any case.
 ///
 /// \sa `CGAL::Conformal_equivalence::place_cones()`
 /// \sa `CGAL::Conformal_equivalence::flatten()`
