@@ -413,9 +413,10 @@ private:
 
   Turning_metric find(const std::vector<long>& quanta, bool may_give_up, Turned_handles& handles) const
   {
-    const std::size_t soon = 60; // steps; from some it takes 20, and more than 40 hardly ever
+    const std::size_t soon = 60; // steps, of which four to twelve are usual, most of them with a single trial
     Turning_newton_options options = newton_options();
     options.maximum_number_of_steps = (std::min)(options_.number_of_iterations, soon);
+    options.maximum_number_of_trials = may_give_up ? soon : 4 * soon;
     options.may_give_up = may_give_up;
     const Turning_metric& start = handles.start;
     Turning_metric result = Turning_newton<NT>(start.triangulation, start.loops, targets(quanta), options, start.directions).run();

@@ -44,6 +44,7 @@ struct Turning_newton_options
 {
   double tolerance = 1e-12;           // radians
   std::size_t maximum_number_of_steps = 200;
+  std::size_t maximum_number_of_trials = 1000; // each of which takes about as long as a conformal solve; a good step takes one
   bool may_give_up = false;           // as soon as steps have become so small that another target is the better choice
   double epsilon = Turning_equations::default_epsilon;
   Any_visitor visitor;                // is told the steps and may stop them
@@ -118,7 +119,7 @@ private:
         metric_.status = Status::STOPPED_BY_VISITOR;
         return;
       }
-      if(metric_.number_of_steps == options_.maximum_number_of_steps || is_slow())
+      if(metric_.number_of_steps == options_.maximum_number_of_steps || has_no_trials_left() || is_slow())
         return give_up();
       if(step_in_known_directions() || !bool(metric_))
         continue;
@@ -129,6 +130,8 @@ private:
         return give_up();
     }
   }
+
+  bool has_no_trials_left() const { return number_of_trials_ >= options_.maximum_number_of_trials; }
 
   Eigen::Index number_of_loops() const { return residual_.size() - rows_.number_of_vertices(); }
 
@@ -173,7 +176,7 @@ private:
     if(!std::isfinite(size))
       return false;
     const Eigen::VectorXd before = residual_;
-    for(double part = (std::min)(1., farthest / size); part >= least && bool(metric_); part /= 2)
+    for(double part = (std::min)(1., farthest / size); part >= least && bool(metric_) && !has_no_trials_left(); part /= 2)
     {
       if(!try_step(part, change, is_complete))
         continue;
@@ -203,6 +206,7 @@ private:
   // The step as it is if it does nearly all that it promises, else with angle sums had again.
   bool try_step(double part, const Eigen::VectorXd& change, bool is_complete)
   {
+    ++number_of_trials_;
     Turning_metric trial = metric_;
     if(stretch(trial.triangulation, part * change) && projection_.make_delaunay(trial))
     {
@@ -255,6 +259,7 @@ private:
 
   Turning_metric metric_;
   Eigen::VectorXd residual_;
+  std::size_t number_of_trials_ = 0;
   Eigen::MatrixXd jacobian_; // of the turnings, for steps in the directions; empty: as these were made for
   bool are_directions_stale_ = false, is_begun_ = false;
   const Turning_targets targets_;
