@@ -133,6 +133,13 @@ private:
 
   bool has_no_trials_left() const { return number_of_trials_ >= options_.maximum_number_of_trials; }
 
+  // Steps so long decide by how much the conformal class is left: for these it pays to find the best directions anew.
+  bool is_far_away() const
+  {
+    const double far_away = 0.02; // radians
+    return residual_.norm() > far_away;
+  }
+
   Eigen::Index number_of_loops() const { return residual_.size() - rows_.number_of_vertices(); }
 
   bool step_in_known_directions()
@@ -195,7 +202,7 @@ private:
   void learn(const Eigen::VectorXd& extent, const Eigen::VectorXd& before)
   {
     const double enough = 0.3; // of the residual, at most, is to be left by a step
-    are_directions_stale_ = residual_.norm() > enough * before.norm();
+    are_directions_stale_ = is_far_away() || residual_.norm() > enough * before.norm();
     if(jacobian_.size() != 0 && extent.squaredNorm() > 0)
     {
       const Eigen::VectorXd turned = residual_.tail(number_of_loops()) - before.tail(number_of_loops());
