@@ -210,15 +210,14 @@ private:
     }
   }
 
-  // The step as it is if it does nearly all that it promises, else with angle sums had again.
+  // The step as it is if it is the last one, else with angle sums had again, as steps in known directions take for granted.
   bool try_step(double part, const Eigen::VectorXd& change, bool is_complete)
   {
     ++number_of_trials_;
     Turning_metric trial = metric_;
     if(stretch(trial.triangulation, part * change) && projection_.make_delaunay(trial))
     {
-      const double nearly_all = 0.1; // the part of the residual that may be left
-      if(is_complete && take_if_below(nearly_all * residual_.norm(), trial))
+      if(is_complete && take_if_below(options_.tolerance, trial))
         return true;
       if(projection_.make_conformal(trial) && take_if_below((1 - 1e-4 * part) * residual_.norm(), trial))
         return true;
