@@ -155,7 +155,9 @@ private:
   bool step_in_new_directions(const Turning_equations& equations)
   {
     const Eigen::Index n = number_of_loops(), first = rows_.number_of_vertices(), edges = metric_.triangulation.number_of_edges();
-    if(n > 0 && Turning_metric::can_keep_directions(n, metric_.triangulation))
+    const double near_enough = 0.3; // radians: from here a step comes so near that these directions serve once more
+    metric_.directions.resize(0, 0);
+    if(n > 0 && residual_.norm() < near_enough && Turning_metric::can_keep_directions(n, metric_.triangulation))
     {
       metric_.directions.resize(edges, n);
       for(Eigen::Index j = 0; j < n; ++j)
