@@ -9,13 +9,14 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-template Turning_newton<double>::Turning_newton(Intrinsic_triangulation<double>, Dual_loops, Turning_targets, const Turning_newton_options&);
+template Turning_newton<double>::Turning_newton(Intrinsic_triangulation<double>, Dual_loops, Turning_targets, const Turning_newton_options&,
+                                                Turning_metric::Directions);
 template Turning_metric Turning_newton<double>::run();
 template Handle_turner<double>::Handle_turner(const Intrinsic_triangulation<double>&, const Conformal_metric<double>&,
                                               const Conformal_conditions<double>&, const std::vector<Quantized_cone>&, int,
-                                              const std::vector<Prescribed_turning>&, const Solver_options&);
+                                              const std::vector<Prescribed_turning>&, const Solver_options&, const Factorization_maker&);
 template Turned_handles Handle_turner<double>::choose() const;
-template Conformal_metric<double> Handle_turner<double>::turn(Turned_handles&, std::unique_ptr<Factorization>) const;
+template Conformal_metric<double> Handle_turner<double>::turn(Turned_handles&) const;
 
 } // namespace internal
 } // namespace Conformal_equivalence

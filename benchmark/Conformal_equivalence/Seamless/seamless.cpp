@@ -8,7 +8,8 @@
 //
 // The first prints a row of a Markdown table for MESH, the second the head of the table. MESH as for `performance`: closed, connected, with handles.
 // N cones for each handle (default 8) place themselves, with multiples of a right angle; then the handles turn as they are chosen to,
-// and in S random ways (default 20): each loop of the basis by the nearest multiple, or one more or less.
+// and in S random ways (default 20): each loop of the basis by the nearest multiple, or one more or less. Seconds are those of the processors, with
+// the choice of the turnings.
 
 #include "../include/Processor_stopwatch.h"
 #include "../include/benchmark_meshes.h"
@@ -87,10 +88,10 @@ void print_row(const std::string& name, std::size_t cones_of_handle, std::size_t
   const Problem p = problem(name, cones_of_handle);
   const std::vector<CE::internal::Prescribed_turning> none;
   const Handle_turner turner(p.t, p.metric, p.conditions, p.cones, 4, none, CE::Solver_options());
+  const Processor_stopwatch watch;
   CE::internal::Turned_handles chosen = turner.choose();
   const CE::internal::Turned_handles given = chosen;
-  const Processor_stopwatch watch;
-  const bool is_found = bool(chosen) && bool(turner.turn(chosen, CE::internal::make_factorization<CE::Default_solver_traits>()));
+  const bool is_found = bool(chosen) && bool(turner.turn(chosen));
   const double seconds = watch.seconds();
   std::cout << "| " << name.substr(name.find_last_of('/') + 1) << " | " << p.t.number_of_vertices() << " | " << p.genus << " | "
             << p.cones.size() << " | " << p.metric.statistics.number_of_iterations << " | " << p.seconds << " | "
@@ -113,7 +114,7 @@ void print_row(const std::string& name, std::size_t cones_of_handle, std::size_t
     if(CE::internal::existence(signature) == CE::Surface_existence::IMPOSSIBLE)
       continue;
     ++number_of_tried;
-    if(bool(turner.turn(handles, CE::internal::make_factorization<CE::Default_solver_traits>())))
+    if(bool(turner.turn(handles)))
       steps.push_back(handles.number_of_steps);
   }
   std::cout << steps.size() << " of " << number_of_tried << " | " << median(steps) << " | "

@@ -124,6 +124,8 @@ void Progress_visitor::on_progress(CGAL::Conformal_equivalence::Stage next, std:
     return progress->show(text(": flipping edges, ", count(number, "flip", "flips"), ", ", measure, " edges to look at"), -1);
   stage = next;
   progress->begin(CGAL::Conformal_equivalence::stage_name(stage));
+  if(next == Stage::POSITIONS)
+    return progress->show(text(": ", count(number, "choice", "choices"), ", about ", std::round(measure), " tiles"), -1);
   progress->show(text(": ", next == Stage::CORNERS ? count(number, "metric", "metrics") : count(number, "cone", "cones"), ", ", measure), -1);
 }
 

@@ -13,6 +13,7 @@
 #include <CGAL/Conformal_equivalence/Flattening_report.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/flatten.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Doors/parameters_of_doors.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Seamless_parameterization.h>
 #include <CGAL/Conformal_equivalence/internal/Stopwatch.h>
@@ -42,6 +43,7 @@ Seamless_options read_seamless_options(const NamedParameters& np)
   options.maximum_distortion = choose_parameter(get_parameter(np, internal_np::conformal_maximum_distortion), options.maximum_distortion);
   options.is_lattice_coordinates = choose_parameter(get_parameter(np, internal_np::conformal_seamless_coordinates),
                                                     Seamless_coordinates::CARTESIAN) == Seamless_coordinates::LATTICE;
+  options.visitor = visitor_of(np);
   return result;
 }
 
@@ -174,7 +176,10 @@ struct Loop_turning
 ///         tried); `SINGULAR_PROBLEM`.
 ///
 /// Time: that of `place_cones()` and `flatten()`, the factorization of a matrix of twice the size, a solution with it for each cone, and a search
-/// among lattice points that is bounded; with handles some ten to forty factorizations of a matrix of four times the size.
+/// among lattice points that is bounded; with handles one factorization, or a few, of a matrix of four times the size, and some conformal metrics.
+///
+/// A `visitor` that stops the search among lattice points is told so by `STOPPED_BY_VISITOR`, unless a layout has been found by then that
+/// is only to be proven the closest one: that is kept. Cones and handles are reported in any case.
 ///
 /// \sa `CGAL::Conformal_equivalence::place_cones()`
 /// \sa `CGAL::Conformal_equivalence::flatten()`

@@ -91,7 +91,8 @@ enum class Stage
   VERIFY, ///< orientations of the triangles
   PLACE,  ///< the search for places of cones
   CORNERS, ///< the search for the corners of a rectangle
-  FLIP    ///< flips of edges, as a part of `SOLVE`: told of by `on_progress()` only, where they take long
+  FLIP,   ///< flips of edges, as a part of `SOLVE`: told of by `on_progress()` only, where they take long
+  POSITIONS ///< the search for the lattice points of the cones of a seamless layout
 };
 
 /// \ingroup PkgConformalEquivalenceStatus
@@ -108,6 +109,7 @@ inline const char* stage_name(Stage stage)
     case Stage::PLACE:  return "placing cones";
     case Stage::CORNERS: return "choosing corners";
     case Stage::FLIP:   return "flipping edges";
+    case Stage::POSITIONS: return "choosing lattice points";
   }
   return "";
 }

@@ -27,6 +27,7 @@ inline double& seconds_of_stage(Stage stage, Statistics::Seconds& seconds)
     case Stage::IMPORT: return seconds.import;
     case Stage::SOLVE:  return seconds.solve;
     case Stage::CUT:    return seconds.cut;
+    case Stage::POSITIONS:
     case Stage::LAYOUT: return seconds.layout;
     case Stage::VERIFY:
     case Stage::PLACE:

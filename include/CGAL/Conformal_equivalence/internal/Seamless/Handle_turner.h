@@ -24,18 +24,16 @@
 #include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>
-#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
-#include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Dual_loops.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Quantized_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Seamless_signature.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Turning_equations.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Turning_metric.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Turning_newton.h>
 #include <CGAL/Conformal_equivalence/internal/Lattices/closest_vector.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/congruent_vectors.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/homology_basis.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/loop_classes.h>
-#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/flipped_length.h>
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 
@@ -50,7 +48,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -71,12 +68,14 @@ struct Turned_handles : public Outcome
   std::vector<Dual_loops::Loop> loops;     // a basis of the first homology, on the triangulation given
   std::vector<double> conformal_turnings;  // by loop (radians): before
   std::vector<long> quanta;                // by loop: after, in units of 2 pi / n
-  std::vector<std::vector<long> > others;  // what is to be tried next, in order
+  std::vector<std::vector<long> > others;  // what may be tried next, the nearest first
   bool is_nearest = true;                  // whether they are proven to be those that take the least deformation, to first order
   Surface_existence existence = Surface_existence::PROVEN;
   double mean_departure = 0;               // root of the mean square of the changes of the logarithms of length cross ratios
   double largest_departure = 0;            // the largest one
   double residual = 0;                     // largest difference of a turning from its target (radians)
+  Turning_metric start;                    // the metric given, Delaunay; empty if it turns as it should
+  Eigen::MatrixXd form;                    // by loop: what it takes, to first order, to turn more
   std::size_t number_of_steps = 0;
   std::size_t number_of_flips = 0;
 };
@@ -163,46 +162,25 @@ public:
   // prescribed is for closed surfaces. Keeps references.
   Handle_turner(const Triangulation& t, const Metric& metric, const Conformal_conditions<NT>& conditions,
                 const std::vector<Quantized_cone>& cones, int n, const std::vector<Prescribed_turning>& prescribed,
-                const Solver_options& options);
+                const Solver_options& options, const Factorization_maker& make_factorization = Turning_newton_options().make_factorization);
 
   // Finds how the handles shall turn.
   Turned_handles choose() const;
 
   // The metric in which they do. \pre choose() was a success
-  Metric turn(Turned_handles& handles, std::unique_ptr<Factorization> factorization) const;
+  Metric turn(Turned_handles& handles) const;
 
 private:
   double quantum() const { return 2 * CGAL_PI / double(n_); }
 
   // ---- The metric given
 
-  Triangulation scaled() const { return scaled(metric_); }
-
-  // The triangulation of a metric, with the scaled lengths.
-  static Triangulation scaled(const Metric& metric)
-  {
-    std::vector<NT> lengths;
-    for(Index e = 0; e < metric.triangulation.number_of_edges(); ++e)
-      lengths.push_back(metric.scaled_length(metric.triangulation.edge_halfedge(e)));
-    return metric.triangulation.with_lengths(std::move(lengths));
-  }
-
   // On the triangulation of the metric.
   Dual_loops carried(const std::vector<Loop>& given) const
   {
     Dual_loops loops(t_, given);
-    carry(metric_.flips, t_, loops);
+    carry_through_flips(metric_.flips, t_, loops);
     return loops;
-  }
-
-  // Through flips, of which the lengths do not matter.
-  static void carry(const std::vector<Index>& flips, Triangulation t, Dual_loops& loops)
-  {
-    for(Index e : flips)
-    {
-      loops.flip(t, e);
-      t.flip_edge(e, t.length(e));
-    }
   }
 
   // ---- What is prescribed
@@ -213,7 +191,7 @@ private:
     if(prescribed_.empty())
       return {};
     const Homology_coordinates<NT> coordinates(t_, basis);
-    const Triangulation s = scaled();
+    const Triangulation s = scaled_triangulation(metric_);
     const Corner_angles corners(s);
     std::vector<Congruence> result;
     for(const Prescribed_turning& p : prescribed_)
@@ -283,9 +261,10 @@ private:
   }
 
   // Takes the nearest that is admitted and exists.
-  void choose_among(const Congruent_vectors& admitted, const std::vector<double>& turning, const Dual_loops& loops, Turned_handles& result) const
+  void choose_among(const Congruent_vectors& admitted, Turned_handles& result) const
   {
     const std::size_t most = 32, most_nodes = 200000; // some tenths of a second, and more than are ever refused in a row
+    const std::vector<double> turning = turnings(result.start.triangulation, result.start.loops, Corner_angles(result.start.triangulation));
     const Eigen::Index dimension = Eigen::Index(turning.size());
     Eigen::MatrixXd basis(dimension, dimension);
     Eigen::VectorXd target(dimension);
@@ -295,8 +274,13 @@ private:
       for(Eigen::Index j = 0; j < dimension; ++j)
         basis(i, j) = double(admitted.basis[std::size_t(j)][std::size_t(i)]);
     }
-    const Eigen::MatrixXd form = deformation_form(loops);
-    const Reduced_lattice lattice(basis.transpose() * form * basis);
+    result.form = deformation_form(result.start);
+    if(result.form.rows() != dimension)
+    {
+      result.status = Status::SINGULAR_PROBLEM;
+      return;
+    }
+    const Reduced_lattice lattice(basis.transpose() * result.form * basis);
     result.status = lattice.is_valid() ? Status::NOT_REALIZABLE : Status::SINGULAR_PROBLEM;
     if(!lattice.is_valid())
       return;
@@ -327,22 +311,23 @@ private:
   }
 
   // x^T G x is about what it takes to make the loops turn by x more, in units of the quantum. On a Delaunay triangulation: the sharp angles of
-  // others promise more than they can give.
-  Eigen::MatrixXd deformation_form(Dual_loops loops) const
+  // others promise more than they can give. The directions in which that is done are kept there.
+  Eigen::MatrixXd deformation_form(Turning_metric& start) const
   {
-    Triangulation s = scaled();
-    Delaunay_flipper<NT>(s).flip_to_delaunay(std::vector<double>(), all_edges(s), Flip_rule::PTOLEMY, [&](Index e) { loops.flip(s, e); });
-    const Turning_rows rows(s, free_vertices());
-    const Eigen::Index n = Eigen::Index(loops.size()), first = rows.number_of_vertices();
-    Turning_equations equations(s, loops, rows, Corner_angles(s));
+    const Turning_rows rows(start.triangulation, free_vertices_);
+    const Eigen::Index n = Eigen::Index(start.loops.size()), first = rows.number_of_vertices();
+    Turning_equations equations(start.triangulation, start.loops, rows, Corner_angles(start.triangulation));
     if(!equations.factorize())
       return Eigen::MatrixXd(0, 0);
+    start.directions.resize(Turning_metric::can_keep_directions(n, start.triangulation) ? start.triangulation.number_of_edges() : 0, n);
     Eigen::MatrixXd result(n, n);
     for(Eigen::Index j = 0; j < n; ++j)
     {
       Eigen::VectorXd right = Eigen::VectorXd::Zero(first + n);
       right[first + j] = quantum();
-      result.col(j) = -quantum() * equations.multipliers(right).tail(n);
+      const Eigen::VectorXd x = equations.solve(right);
+      start.directions.col(j) = x.head(start.directions.rows()) / quantum();
+      result.col(j) = -quantum() * x.tail(n);
     }
     result = (result + result.transpose()).eval() / 2;
     result.diagonal() *= 2;
@@ -358,15 +343,7 @@ private:
       result.angle_sum.push_back(conditions_.angle_sum(v).template radians<double>());
     for(long q : quanta)
       result.turning.push_back(double(q) * quantum());
-    result.is_free = free_vertices();
-    return result;
-  }
-
-  std::vector<char> free_vertices() const
-  {
-    std::vector<char> result(t_.number_of_vertices(), 0);
-    for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      result[v] = conditions_.is_fixed(v) ? 1 : 0;
+    result.is_free = free_vertices_;
     return result;
   }
 
@@ -387,26 +364,83 @@ private:
     return result;
   }
 
-  // For the nearest turnings; if the method is not on its way to an end soon, for others, and what is found is put into `handles`.
+  Turning_newton_options newton_options() const
+  {
+    Turning_newton_options result;
+    result.tolerance = options_.gradient_tolerance;
+    result.visitor = options_.visitor;
+    result.make_factorization = make_factorization_;
+    return result;
+  }
+
+  // The metric given, Delaunay and with its angle sums: where the triangulation given is not, the metric on it has other turnings.
+  Turning_metric start(const std::vector<Loop>& loops) const
+  {
+    const std::vector<long> any(loops.size(), 0);
+    Turning_newton<NT> newton(scaled_triangulation(metric_), carried(loops), targets(any), newton_options());
+    Turning_metric result = newton.begin();
+    result.residuals.clear();
+    return result;
+  }
+
+  // For the nearest turnings; if the method is not on its way to an end soon, for a few others, and what is found is put into `handles`. If
+  // it is for none of them, once more for the nearest, with patience.
   Turning_metric find(Turned_handles& handles) const
   {
-    const std::size_t most_tried = 8, soon = 60; // steps; from some it takes 20, and more than 40 hardly ever
-    Turning_newton_options options;
-    options.tolerance = options_.gradient_tolerance;
-    options.maximum_number_of_steps = (std::min)(options_.number_of_iterations, soon);
-    options.visitor = options_.visitor;
-    const Dual_loops loops = carried(handles.loops);
-    Turning_metric result = Turning_newton<NT>(scaled(), loops, targets(handles.quanta), options).run();
-    for(std::size_t i = 0; i < handles.others.size() && i < most_tried && result.status == Status::ITERATIONS_EXHAUSTED; ++i)
+    const std::size_t most_others = 4;
+    std::vector<std::vector<long> > others = handles.others;
+    std::vector<long> quanta = handles.quanta;
+    Turning_metric result = find(quanta, !others.empty(), handles);
+    for(std::size_t n = 0; n < most_others && is_another_needed(result) && !others.empty(); ++n)
     {
-      handles.number_of_steps += result.number_of_steps;
-      Turning_metric next = Turning_newton<NT>(scaled(), loops, targets(handles.others[i]), options).run();
-      if(next.status == Status::ITERATIONS_EXHAUSTED)
-        continue;
-      take(handles.others[i], handles);
-      handles.is_nearest = false;
-      result = std::move(next);
+      quanta = take_next(result, handles, others);
+      result = find(quanta, true, handles);
     }
+    if(is_another_needed(result) && !handles.others.empty())
+    {
+      quanta = handles.quanta;
+      result = find(quanta, false, handles);
+    }
+    if(bool(result) && quanta != handles.quanta)
+    {
+      take(std::move(quanta), handles);
+      handles.is_nearest = false;
+    }
+    return result;
+  }
+
+  static bool is_another_needed(const Turning_metric& found) { return !bool(found) && found.status != Status::STOPPED_BY_VISITOR; }
+
+  Turning_metric find(const std::vector<long>& quanta, bool may_give_up, Turned_handles& handles) const
+  {
+    const std::size_t soon = 60; // steps, of which four to twelve are usual, most of them with a single trial
+    Turning_newton_options options = newton_options();
+    options.maximum_number_of_steps = (std::min)(options_.number_of_iterations, soon);
+    options.maximum_number_of_trials = may_give_up ? soon : 4 * soon;
+    options.may_give_up = may_give_up;
+    const Turning_metric& start = handles.start;
+    Turning_metric result = Turning_newton<NT>(start.triangulation, start.loops, targets(quanta), options, start.directions).run();
+    handles.number_of_steps += result.number_of_steps;
+    return result;
+  }
+
+  // Of what is left to be tried, what is nearest both to the metric given and to where the last try has ended.
+  std::vector<long> take_next(const Turning_metric& failed, const Turned_handles& handles, std::vector<std::vector<long> >& others) const
+  {
+    const std::vector<double> begun = turnings(handles.start.triangulation, handles.start.loops, Corner_angles(handles.start.triangulation)),
+                              ended = turnings(failed.triangulation, failed.loops, Corner_angles(failed.triangulation));
+    const auto cost = [&](const std::vector<long>& quanta, const std::vector<double>& turning)
+    {
+      Eigen::VectorXd x(Eigen::Index(quanta.size()));
+      for(std::size_t i = 0; i < quanta.size(); ++i)
+        x[Eigen::Index(i)] = double(quanta[i]) - turning[i] / quantum();
+      return x.dot(handles.form * x);
+    };
+    const auto both = [&](const std::vector<long>& quanta) { return cost(quanta, begun) + cost(quanta, ended); };
+    const auto next = std::min_element(others.begin(), others.end(), [&](const std::vector<long>& a, const std::vector<long>& b)
+      { return both(a) < both(b); });
+    std::vector<long> result = std::move(*next);
+    others.erase(next);
     return result;
   }
 
@@ -421,7 +455,7 @@ private:
 
   // The metric whose scaled lengths are those of `found`, with the factors that come nearest to its departure; and its angle sums made those
   // of the conditions up to the rounding of the wide number type, by a conformal change too little to be seen elsewhere.
-  Metric with_factors(const Triangulation& found, std::vector<double> u, std::unique_ptr<Factorization> factorization) const
+  Metric with_factors(const Triangulation& found, std::vector<double> u) const
   {
     for(Index v = 0; v < found.number_of_vertices(); ++v)
       if(conditions_.is_fixed(v))
@@ -435,12 +469,14 @@ private:
     Solver_options options = options_;
     options.retriangulation = Retriangulation::WHEN_NEEDED;
     options.initial_log_scale_factors = u;
-    Metric_finder<NT> finder(found.with_lengths(std::move(lengths)), std::move(factorization));
-    Metric result = finder.find(conditions_, options);
-    if(!result.is_retriangulated())
-      result.triangulation = finder.take_triangulation();
-    if(result.is_doubled) // a change so little hardly ever needs that
-      result.status = Status::ITERATIONS_EXHAUSTED;
+    return metric_with_triangulation(found.with_lengths(std::move(lengths)), conditions_, options, make_factorization_());
+  }
+
+  static std::vector<char> free_vertices(const Conformal_conditions<NT>& conditions)
+  {
+    std::vector<char> result(conditions.size(), 0);
+    for(Index v = 0; v < result.size(); ++v)
+      result[v] = conditions.is_fixed(v) ? 1 : 0;
     return result;
   }
 
@@ -451,13 +487,16 @@ private:
   const long n_;
   const std::vector<Prescribed_turning>& prescribed_;
   const Solver_options options_;
+  const Factorization_maker make_factorization_;
+  const std::vector<char> free_vertices_; // by vertex: u is prescribed, and the angle sum may be any
 };
 
 template <typename NT>
 Handle_turner<NT>::Handle_turner(const Triangulation& t, const Metric& metric, const Conformal_conditions<NT>& conditions,
                                  const std::vector<Quantized_cone>& cones, int n, const std::vector<Prescribed_turning>& prescribed,
-                                 const Solver_options& options)
-  : t_(t), metric_(metric), conditions_(conditions), cones_(cones), n_(n), prescribed_(prescribed), options_(options)
+                                 const Solver_options& options, const Factorization_maker& make_factorization)
+  : t_(t), metric_(metric), conditions_(conditions), cones_(cones), n_(n), prescribed_(prescribed), options_(options),
+    make_factorization_(make_factorization), free_vertices_(free_vertices(conditions))
 {}
 
 template <typename NT>
@@ -465,9 +504,8 @@ Turned_handles Handle_turner<NT>::choose() const
 {
   Turned_handles result;
   result.loops = homology_basis(t_);
-  const Dual_loops loops = carried(result.loops);
-  const Triangulation s = scaled();
-  result.conformal_turnings = turnings(s, loops, Corner_angles(s));
+  const Triangulation s = scaled_triangulation(metric_);
+  result.conformal_turnings = turnings(s, carried(result.loops), Corner_angles(s));
   const std::vector<Congruence> conditions = congruences(result.loops, result.conformal_turnings, result);
   if(!bool(result))
     return result;
@@ -481,7 +519,13 @@ Turned_handles Handle_turner<NT>::choose() const
   const bool is_flat_torus = result.loops.size() == 2 && cones_.empty() && !has_border();
   const std::vector<long> zero(result.loops.size(), 0);
   if(!is_flat_torus && !result.loops.empty())
-    choose_among(admitted, result.conformal_turnings, loops, result);
+  {
+    result.start = start(result.loops);
+    result.set_outcome(result.start);
+    if(!bool(result))
+      return result;
+    choose_among(admitted, result);
+  }
   else if(std::all_of(conditions.begin(), conditions.end(), [&](const Congruence& c) { return c.value % n_ == 0; }))
     take(zero, result);
   else
@@ -497,34 +541,36 @@ Turned_handles Handle_turner<NT>::choose() const
 }
 
 template <typename NT>
-Conformal_metric<NT> Handle_turner<NT>::turn(Turned_handles& handles, std::unique_ptr<Factorization> factorization) const
+Conformal_metric<NT> Handle_turner<NT>::turn(Turned_handles& handles) const
 {
   if(are_turned(handles))
     return metric_;
+  if(handles.start.loops.size() != handles.loops.size()) // a torus without cones, which rounding has turned
+    handles.start = start(handles.loops);
   Turning_metric found = find(handles);
   handles.set_outcome(found);
-  handles.number_of_steps += found.number_of_steps;
-  handles.number_of_flips = found.flips.size();
   handles.residual = found.residual();
   Metric result;
   result.set_outcome(found);
   if(!bool(found))
     return result;
 
+  found.flips.insert(found.flips.begin(), handles.start.flips.begin(), handles.start.flips.end());
+  handles.number_of_flips = found.flips.size();
   std::vector<Index> flips = metric_.flips;
   flips.insert(flips.end(), found.flips.begin(), found.flips.end());
   const Conformal_departure departure(flipped(flips), found.triangulation);
   handles.mean_departure = departure.mean;
   handles.largest_departure = departure.largest;
-  result = with_factors(found.triangulation, departure.u, std::move(factorization));
+  result = with_factors(found.triangulation, departure.u);
   handles.status = result.status;
   handles.amount = result.amount;
   if(!bool(result))
     return result;
-  carry(result.flips, found.triangulation, found.loops);
+  carry_through_flips(result.flips, found.triangulation, found.loops);
   flips.insert(flips.end(), result.flips.begin(), result.flips.end());
   result.flips = std::move(flips);
-  const Triangulation s = scaled(result);
+  const Triangulation s = scaled_triangulation(result);
   handles.residual = largest_difference(turnings(s, found.loops, Corner_angles(s)), handles.quanta);
   return result;
 }
@@ -532,9 +578,10 @@ Conformal_metric<NT> Handle_turner<NT>::turn(Turned_handles& handles, std::uniqu
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
 extern template Handle_turner<double>::Handle_turner(const Intrinsic_triangulation<double>&, const Conformal_metric<double>&,
                                                      const Conformal_conditions<double>&, const std::vector<Quantized_cone>&, int,
-                                                     const std::vector<Prescribed_turning>&, const Solver_options&);
+                                                     const std::vector<Prescribed_turning>&, const Solver_options&,
+                                                     const Factorization_maker&);
 extern template Turned_handles Handle_turner<double>::choose() const;
-extern template Conformal_metric<double> Handle_turner<double>::turn(Turned_handles&, std::unique_ptr<Factorization>) const;
+extern template Conformal_metric<double> Handle_turner<double>::turn(Turned_handles&) const;
 #endif
 
 } // namespace internal

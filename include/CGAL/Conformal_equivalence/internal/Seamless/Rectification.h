@@ -14,6 +14,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Layout.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Laplace_layout.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Meta_polygon.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Normalized_layout.h>
@@ -27,6 +28,7 @@
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/plane_predicates.h>
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
+#include <CGAL/Conformal_equivalence/options.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>
@@ -52,6 +54,7 @@ struct Rectification_options
   double number_of_tiles = 0;        // 0: as few as the distortion allows
   double maximum_distortion = 1.02;
   bool is_lattice_coordinates = false;
+  Any_visitor visitor;               // is told the positions that are tried, and may stop the search
 };
 
 // `NT` is `double`: it is a template so that it can be compiled once (compiled.h).
@@ -123,10 +126,24 @@ private:
       result_.status = Status::NOT_REPRESENTABLE;
     else if(positions_.rank() == 0)
       scale_only();
-    else if(find_choice())
+    else
+      search();
+  }
+
+  void search()
+  {
+    options_.visitor.on_stage(Stage::POSITIONS);
+    if(find_choice())
       deform();
     else
-      result_.status = Status::SINGULAR_PROBLEM;
+      result_.status = is_stopped_ ? Status::STOPPED_BY_VISITOR : Status::SINGULAR_PROBLEM;
+  }
+
+  // Asks the visitor, once more unless it has stopped the search before.
+  bool is_to_stop()
+  {
+    is_stopped_ = is_stopped_ || !options_.visitor.go_further();
+    return is_stopped_;
   }
 
   // ---- The flat layout
@@ -208,7 +225,7 @@ private:
     for(Eigen::Index j = 0; j < r; ++j)
     {
       const Laplace_layout::Data d = data(basis.col(j));
-      const std::vector<Complex> z = (*laplace_)(d);
+      const std::vector<Complex> z = is_to_stop() ? std::vector<Complex>() : (*laplace_)(d);
       if(z.empty())
         return Eigen::MatrixXcd::Constant(r, r, std::numeric_limits<double>::quiet_NaN());
       forces[j] = laplace_->forces(d);
@@ -241,7 +258,7 @@ private:
   {
     const std::size_t most_tried = 6; // of about eight rotations that are aimed at, and their second best
     const int most_refinements = 8;   // as triangles that are inverted with 256 times as many tiles are so because of the layout, not of the grid
-    for(int finer = 0; finer < most_refinements; ++finer)
+    for(int finer = 0; finer < most_refinements && !is_to_stop(); ++finer)
     {
       const std::vector<Candidate> c = choice_->candidates(std::ldexp(options_.number_of_tiles, finer));
       const auto is_found = [&]
@@ -257,7 +274,7 @@ private:
       if(is_found_strictly_or_not(is_found))
         return;
     }
-    refuse_inverted();
+    refuse();
   }
 
   // As few tiles as the bound on the mean distortion allows.
@@ -266,8 +283,8 @@ private:
     Found best; // of those beyond the bound
     if(is_found_strictly_or_not([&] { return search_within_bound(best); }))
       return;
-    if(!best.is_any)
-      return refuse_inverted();
+    if(is_stopped_ || !best.is_any)
+      return refuse();
     found_ = std::move(best);
     result_.status = Status::BOUND_NOT_MET;
     result_.amount = found_.tiling.mean_distortion;
@@ -280,7 +297,7 @@ private:
     seamless_.set_strict(true);
     if(is_found())
       return true;
-    if(!seamless_.has_refused_wound())
+    if(is_stopped_ || !seamless_.has_refused_wound())
       return false;
     seamless_.set_strict(false);
     return is_found();
@@ -292,7 +309,7 @@ private:
     const std::size_t most_tried = 2; // the next number of tiles comes soon
     const double most_tiles = 1e9;    // so that lattice points stay far below the range in which seams are exact
     const bool is_any_strict = best.is_any;
-    for(double tiles = 1; tiles < most_tiles; tiles *= std::sqrt(2.))
+    for(double tiles = 1; tiles < most_tiles && !is_to_stop(); tiles *= std::sqrt(2.))
     {
       const std::vector<Candidate> c = choice_->candidates(tiles);
       for(std::size_t i = 0; i < c.size() && i < most_tried; ++i)
@@ -322,10 +339,11 @@ private:
       found_ = std::move(first);
   }
 
-  // Looks longer than before for positions closer to what was aimed at than those that were taken; most often proves that there are none.
+  // Looks longer than before for positions closer to what was aimed at than those that were taken; most often proves that there are none. If that is
+  // not to be waited for, what was found is kept without a proof.
   void prove(const Candidate& taken)
   {
-    if(taken.is_closest)
+    if(taken.is_closest || is_to_stop())
       return;
     const Candidate closest = choice_->closest(taken);
     if(closest.coefficients == taken.coefficients)
@@ -340,6 +358,14 @@ private:
   // A layout that need not be deformed has a mean distortion of 1, up to rounding.
   bool is_within_bound(const Found& f) const { return f.tiling.mean_distortion <= (std::max)(options_.maximum_distortion, 1 + 1e-9); }
 
+  void refuse()
+  {
+    if(is_stopped_)
+      result_.status = Status::STOPPED_BY_VISITOR;
+    else
+      refuse_inverted();
+  }
+
   void refuse_inverted()
   {
     result_.status = Status::NOT_INJECTIVE;
@@ -353,6 +379,9 @@ private:
   // Returns whether all triangles are positive.
   bool try_candidate(const Candidate& c)
   {
+    if(is_to_stop())
+      return false;
+    options_.visitor.on_progress(Stage::POSITIONS, ++number_of_tried_, std::norm(c.s) / lattice_.area_of_tile());
     const Coefficients x = choice_->complex_coefficients(c.coefficients);
     const Complex s = choice_->scale_of(x);
     const std::vector<Complex> moved = (*laplace_)(data(choice_->plane_positions(x - s * choice_->flat_coefficients())));
@@ -504,6 +533,8 @@ private:
 
   Rectified_layout result_;
   Found found_;                       // the layout that was found last
+  bool is_stopped_ = false;           // by the visitor
+  std::size_t number_of_tried_ = 0;   // candidates
   std::unique_ptr<Normalized_layout> normalized_; // set up once the polygon is known to be one
   Positions flat_z_;                  // by vertex, in its first corner: the normalized layout, without inverted triangles
   Position_lattice positions_;

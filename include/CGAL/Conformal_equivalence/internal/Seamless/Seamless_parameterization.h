@@ -273,10 +273,10 @@ private:
     {
       const std::vector<Quantized_cone> cones = quantized_cones();
       const Handle_turner<double> turner(flattening.mesh.triangulation, flattening.metric, flattening.conditions(), cones, symmetry(), prescribed,
-                                         read_solver_options(flattening.mesh, np));
+                                         read_solver_options(flattening.mesh, np), [&] { return make_factorization(solver_traits_of(np)); });
       Turned_handles handles = turner.choose();
       if(bool(handles))
-        take(turner.turn(handles, make_factorization(solver_traits_of(np))));
+        take(turner.turn(handles));
       report_handles(handles);
     }
     catch(const std::bad_alloc&)

@@ -166,9 +166,7 @@ public:
   // Its multipliers mu, by equation: |Z d|^2 + epsilon |d|^2 = -mu^T right.
   Eigen::VectorXd multipliers(const Eigen::VectorXd& right) const { return solve(right).tail(rows_); }
 
-private:
-  typedef std::vector<Eigen::Triplet<double> > Triplets;
-
+  // Both, one after the other.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const
   {
     const int refinements = 3;
@@ -179,6 +177,9 @@ private:
       x += factor_.solve(b - matrix_.selfadjointView<Eigen::Lower>() * x);
     return x;
   }
+
+private:
+  typedef std::vector<Eigen::Triplet<double> > Triplets;
 
   // The rows of J, below the square of the edges.
   void add_constraints(const Intrinsic_triangulation<double>& t, const Dual_loops& loops, const Turning_rows& rows,

@@ -1,0 +1,213 @@
+// Copyright (c) 2026  The Conformal_equivalence developers.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Metrics on the way to one that turns as it should (Turning_newton.h), and what brings them back to prescribed angle sums.
+//
+// Each is held by the lengths of a triangulation of its own that is Delaunay. In every conformal class there is one metric with given angle sums up
+// to scale, and finding it is a convex problem (Springborn, "Ideal hyperbolic polyhedra and discrete uniformization", 2020). So whatever
+// is done to the lengths, angle sums are had again by a conformal change and flips; nothing but the turnings of loops is left to Newton's
+// method, and these depend on what is done to the conformal class only. Long thin handles, of which the scale factors range far, make angle sums as
+// functions of lengths so curved that steps would otherwise have to be tiny.
+
+#ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_METRIC_H
+#define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_METRIC_H
+
+#include <CGAL/Conformal_equivalence/Conformal_conditions.h>
+#include <CGAL/Conformal_equivalence/Conformal_metric.h>
+#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/Outcome.h>
+#include <CGAL/Conformal_equivalence/Solver_options.h>
+#include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
+#include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Dual_loops.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Turning_equations.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/delaunay_predicate.h>
+#include <CGAL/Conformal_equivalence/internal/Triangles/flipped_length.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Conformal_equivalence {
+namespace internal {
+
+// Makes a factorization for each of several linear systems.
+typedef std::function<std::unique_ptr<Factorization>()> Factorization_maker;
+
+// A metric whose triangulation is on its way, with the loops on it. The status is `OK`, `CONVERGED_TO_ROUNDING`, `ITERATIONS_EXHAUSTED`,
+// `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`.
+struct Turning_metric : public Outcome
+{
+  typedef std::uint32_t Index;
+
+  Intrinsic_triangulation<double> triangulation;
+  Dual_loops loops;
+  std::vector<Index> flips;           // of the triangulation given, in order
+  std::size_t number_of_steps = 0;
+  double least_step = 1;              // the least part of a Newton step that was taken
+  std::vector<double> residuals;      // largest differences from the targets (radians): before each step, and at the end
+
+  // By edge, a row: changes of 2 log l. Each column makes the angle sums what they are and one loop turn by a radian more, to first order, at the
+  // metric where they were found; none: they have not been. Tangent vectors of the space of metrics, which go through flips as these do.
+  typedef Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> Directions;
+  Directions directions;
+
+  // They are copied for every trial: not where they are more than a hundred megabytes.
+  static bool can_keep_directions(Eigen::Index number_of_loops, const Intrinsic_triangulation<double>& t)
+  {
+    const double most_numbers = 1e7;
+    return double(number_of_loops) * double(t.number_of_edges()) <= most_numbers;
+  }
+
+  double residual() const { return residuals.empty() ? 0 : residuals.back(); }
+
+  // The derivative of Ptolemy's f = (a c + b d) / e. (All conformally equivalent lengths have the same quotients a c : b d.) It is called right
+  // before an edge of the triangulation, or of a conformally equivalent one, is flipped.
+  void carry_through_flip(Index e)
+  {
+    loops.flip(triangulation, e);
+    flips.push_back(e);
+    if(directions.size() == 0)
+      return;
+    const std::array<Index, 5> x = quad_edges(triangulation, e);
+    const auto log_length = [&](std::size_t i) { return std::log(triangulation.length(x[i])); };
+    const double part = 1 / (1 + std::exp((log_length(2) - log_length(1)) + (log_length(4) - log_length(3))));
+    directions.row(e) = (part * (directions.row(x[1]) + directions.row(x[3])) + (1 - part) * (directions.row(x[2]) + directions.row(x[4]))
+                         - directions.row(e)).eval();
+  }
+};
+
+// The triangulation of a metric, with the scaled lengths.
+template <typename NT>
+Intrinsic_triangulation<NT> scaled_triangulation(const Conformal_metric<NT>& metric)
+{
+  std::vector<NT> lengths;
+  for(std::uint32_t e = 0; e < metric.triangulation.number_of_edges(); ++e)
+    lengths.push_back(metric.scaled_length(metric.triangulation.edge_halfedge(e)));
+  return metric.triangulation.with_lengths(std::move(lengths));
+}
+
+// Carries loops through flips, of which the lengths do not matter.
+template <typename NT>
+void carry_through_flips(const std::vector<std::uint32_t>& flips, Intrinsic_triangulation<NT> t, Dual_loops& loops)
+{
+  for(std::uint32_t e : flips)
+  {
+    loops.flip(t, e);
+    t.flip_edge(e, t.length(e));
+  }
+}
+
+// A metric of `t`, which is found with its triangulation.
+template <typename NT>
+Conformal_metric<NT> metric_with_triangulation(Intrinsic_triangulation<NT> t, const Conformal_conditions<NT>& conditions,
+                                               const Solver_options& options, std::unique_ptr<Factorization> factorization)
+{
+  Metric_finder<NT> finder(std::move(t), std::move(factorization));
+  Conformal_metric<NT> result = finder.find(conditions, options);
+  if(!result.is_retriangulated())
+    result.triangulation = finder.take_triangulation();
+  if(result.is_doubled)
+    result.status = Status::ITERATIONS_EXHAUSTED;
+  return result;
+}
+
+// Asks another visitor whether to go on, and tells it nothing.
+class Asking_visitor
+{
+public:
+  explicit Asking_visitor(Any_visitor other) : other_(std::move(other)) {}
+
+  void on_stage(Stage) {}
+  void on_iteration(std::size_t, double) {}
+  bool go_further() { return other_.go_further(); }
+
+private:
+  Any_visitor other_;
+};
+
+// Brings metrics back to what is prescribed for the vertices.
+class Turning_projection
+{
+  typedef std::uint32_t Index;
+  typedef Intrinsic_triangulation<double> Triangulation;
+
+public:
+  // `t` has the vertices of all metrics.
+  Turning_projection(const Triangulation& t, const Turning_targets& targets, double tolerance, const Factorization_maker& make_factorization,
+                     const Any_visitor& visitor)
+    : conditions_(t), make_factorization_(make_factorization), visitor_(Any_visitor::of(Asking_visitor(visitor)))
+  {
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      if(!targets.is_free.empty() && targets.is_free[v])
+        conditions_.fix_log_scale_factor(v, 0.);
+      else
+        conditions_.prescribe_angle_sum(v, targets.angle_sum[v]);
+    options_.gradient_tolerance = tolerance;
+    options_.border_edges = Border_edges::KEPT;
+    options_.has_come_from_flips = true; // it is Delaunay, and no other triangulation is one of the same metric
+    options_.is_estimate = true;         // the last digits are had by Newton's method for all equations together
+    options_.visitor = visitor_;
+  }
+
+  // By Ptolemy flips, which leave the point in the space of all decorated hyperbolic metrics where it is. Returns `false` if there are too many, or
+  // if it was stopped.
+  bool make_delaunay(Turning_metric& metric) const
+  {
+    Delaunay_flipper<double> flipper(metric.triangulation);
+    const bool is_done = flipper.flip_to_delaunay(std::vector<double>(), all_edges(metric.triangulation), Flip_rule::PTOLEMY,
+                                                  [&](Index e) { metric.carry_through_flip(e); }, visitor_);
+    if(flipper.is_stopped())
+      metric.status = Status::STOPPED_BY_VISITOR;
+    return is_done;
+  }
+
+  // To the angle sums, in the conformal class. Returns `false` if they cannot be found, or if it was stopped.
+  bool make_conformal(Turning_metric& metric) const
+  {
+    const Conformal_metric<double> found =
+      metric_with_triangulation(metric.triangulation, conditions_, options_, make_factorization_());
+    if(found.status == Status::STOPPED_BY_VISITOR)
+      metric.status = found.status;
+    if(!is_success(found.status) && !is_near(found))
+      return false;
+    for(Index e : found.flips)
+    {
+      metric.carry_through_flip(e);
+      metric.triangulation.flip_edge(e, ptolemy_length(metric.triangulation, e));
+    }
+    metric.triangulation = scaled_triangulation(found);
+    return make_delaunay(metric); // edges that the factors found have left at a tie
+  }
+
+private:
+  // Where rounding of sharp triangles keeps the residual above the tolerance, it is for the steps that follow to make it less.
+  static bool is_near(const Conformal_metric<double>& found)
+  {
+    const double near_enough = 1e-7; // radians
+    return found.status == Status::ITERATIONS_EXHAUSTED && !found.scale_factors.empty() && found.faces.empty()
+        && found.statistics.residual < near_enough;
+  }
+
+  Conformal_conditions<double> conditions_;
+  Factorization_maker make_factorization_;
+  Any_visitor visitor_;
+  Solver_options options_;
+};
+
+} // namespace internal
+} // namespace Conformal_equivalence
+} // namespace CGAL
+
+#endif // CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_METRIC_H
