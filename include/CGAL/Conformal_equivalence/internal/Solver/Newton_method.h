@@ -89,7 +89,7 @@ public:
       if(has_given_up_)
         return Status::ITERATIONS_EXHAUSTED;
       if(!stepped)
-        return size <= 10 * rounding_floor() ? Status::OK : Status::ITERATIONS_EXHAUSTED;
+        return size <= 10 * rounding_floor() || (is_careful() && is_at_floor(size, u)) ? Status::OK : Status::ITERATIONS_EXHAUSTED;
       ++statistics_.number_of_iterations;
       if(active_set_.settle(u))
         evaluate(u, residual_);
@@ -125,7 +125,12 @@ private:
       least_ = size;
       last_gain_ = iteration;
     }
-    if(iteration < last_gain_ + 5 || size > 1)
+    return iteration >= last_gain_ + 5 && is_at_floor(size, u);
+  }
+
+  bool is_at_floor(double size, const Vertex_vector& u)
+  {
+    if(size > 1)
       return false;
     statistics_.residual_floor = floor_ = measured_floor();
     return size <= (std::max)(10., 4 * largest_entry(u)) * floor_; // (u itself is rounded)
