@@ -79,7 +79,7 @@ public:
       if(!visitor_.go_further())
         return Status::STOPPED_BY_VISITOR;
       if(iteration == options_.number_of_iterations || (is_careful() && (has_stopped() || eliminate_.is_in_vain())))
-        return Status::ITERATIONS_EXHAUSTED;
+        return is_careful() && is_at_floor(size, u, of_needles) ? Status::OK : Status::ITERATIONS_EXHAUSTED;
       if(is_crawling(iteration, u))
         return Status::ITERATIONS_EXHAUSTED;
       if(!solver_.has_factor() && !solver_.factorize(energy_.weights()))
@@ -89,7 +89,7 @@ public:
       if(has_given_up_)
         return Status::ITERATIONS_EXHAUSTED;
       if(!stepped)
-        return size <= 10 * rounding_floor() || (is_careful() && is_at_floor(size, u)) ? Status::OK : Status::ITERATIONS_EXHAUSTED;
+        return size <= 10 * rounding_floor() || (is_careful() && is_at_floor(size, u, of_needles)) ? Status::OK : Status::ITERATIONS_EXHAUSTED;
       ++statistics_.number_of_iterations;
       if(active_set_.settle(u))
         evaluate(u, residual_);
@@ -125,12 +125,13 @@ private:
       least_ = size;
       last_gain_ = iteration;
     }
-    return iteration >= last_gain_ + 5 && is_at_floor(size, u);
+    return iteration >= last_gain_ + 5 && is_at_floor(size, u, 1);
   }
 
-  bool is_at_floor(double size, const Vertex_vector& u)
+  // Is what is left no more than rounding may have done? (Of more than `most` it is not to be believed.)
+  bool is_at_floor(double size, const Vertex_vector& u, double most)
   {
-    if(size > 1)
+    if(size > most)
       return false;
     statistics_.residual_floor = floor_ = measured_floor();
     return size <= (std::max)(10., 4 * largest_entry(u)) * floor_; // (u itself is rounded)
@@ -366,6 +367,7 @@ private:
   Active_set active_set_;
   Trust_region region_;
   Vertex_vector residual_;
+  static constexpr double of_needles = 4; // radians: pi, at a needle of which the angles are not to be told, and a little more
   double floor_ = 0;
   double least_ = std::numeric_limits<double>::infinity(); // residual, in steps of at least one half
   std::size_t last_gain_ = 0;                              // the iteration when it was found
