@@ -479,6 +479,7 @@ private:
     if(is_found)
     {
       Wide_refinement<NT> last_steps(energy, linear_, scales_, conditions, bounds, options.gradient_tolerance);
+      last_steps.set_visitor(options.visitor);
       if(options.is_estimate)
         last_steps.begin(u, result);
       else

@@ -3,10 +3,11 @@
 
 // A way to metrics to which Newton's method finds none by itself.
 //
-// On steep surfaces u ranges over hundreds, as it does on long strips, and angles jump from 0 to pi within tiny parts of that: from u = 0 Newton's
-// method walks among such jumps in circles. They are the wider the nearer lengths are to each other. So lengths l^p, with the same triangulation, take
-// the place of l: whichever positive numbers they are, they are Penner coordinates of a surface with the same conditions, for which there is
-// a solution as well. From p near 0, where the problem is one of the triangulation alone, p goes to 1 in steps that Newton's method copes with.
+// On steep surfaces u ranges over hundreds, as it does on long strips, and angles jump from 0 to pi within tiny parts of that: from u = 0
+// Newton's method walks among such jumps in circles. They are the wider the nearer lengths are to each other. So lengths l^p, with the same
+// triangulation, take the place of l: whichever positive numbers they are, they are Penner coordinates of a surface with the same conditions, for
+// which there is a solution as well. From p near 0, where the problem is one of the triangulation alone, p goes to 1 in steps that Newton's
+// method copes with.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_TEMPERED_LENGTHS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_RETRIANGULATION_TEMPERED_LENGTHS_H

@@ -11,6 +11,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Abstract_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
@@ -54,6 +55,9 @@ public:
                   const Conformal_conditions<NT>& conditions, const Lower_bounds& bounds, double tolerance)
     : energy_(energy), linear_(linear), scales_(scales), conditions_(conditions), bounds_(bounds), tolerance_(tolerance)
   {}
+
+  // Keeps a reference to what may stop steps with flips, which take long.
+  void set_visitor(const Any_visitor& visitor) { visitor_ = &visitor; }
 
   // The factors that Newton's method has found.
   void begin(Vertex_vector& u, Metric& result) const
@@ -187,8 +191,8 @@ private:
         && !energy_.ranges_far();
   }
 
-  // Newton's method in the wide type, with flips, from the factors `start` on: for metrics with needles of which the angles go from 0 to pi while u changes by less than
-  // `double` can tell. Steps are halved until residuals become less. Returns whether it has come near to the solution.
+  // Newton's method in the wide type, with flips, from the factors `start` on: for metrics with needles of which the angles go from 0 to pi while
+  // u changes by less than `double` can tell. Steps are halved until residuals become less. Returns whether it has come near to the solution.
   CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool resolve_by_flips(const Vertex_vector& u, const std::vector<Wide_number>& start, Metric& result)
   {
@@ -199,8 +203,21 @@ private:
     flip_at(s, u);
     Scaled_vector residual = energy_.residual_at(s, conditions_);
     Wide_number size = residual.template largest<Wide_number>();
+    const int a_while = 20;
+    Wide_number size_before = 2 * size; // a while ago
     for(int step = 0; size > close; ++step)
     {
+      if(step % a_while == 0)
+      {
+        if(size > 0.9 * size_before)
+          return false;
+        size_before = size;
+      }
+      if(visitor_ != nullptr && !visitor_->go_further())
+      {
+        result.status = Status::STOPPED_BY_VISITOR;
+        return false;
+      }
       std::vector<Wide_number> moved;
       if(step == most_steps || !make_short_step(residual, s, moved))
         return false;
@@ -354,6 +371,7 @@ private:
   const Conformal_conditions<NT>& conditions_;
   const Lower_bounds& bounds_;
   const double tolerance_;
+  const Any_visitor* visitor_ = nullptr;
 };
 
 } // namespace internal
