@@ -516,6 +516,67 @@ BOOST_AUTO_TEST_CASE(u_beyond_the_range_of_double)
   }
 }
 
+// Is d inside of the circle through a, b and c, seen from above?
+bool is_in_circle(const testing::Point& a, const testing::Point& b, const testing::Point& c, const testing::Point& d)
+{
+  std::array<std::array<double, 3>, 3> m;
+  const testing::Point* const corners[] = { &a, &b, &c };
+  for(std::size_t n = 0; n < 3; ++n)
+  {
+    const double x = (*corners[n])[0] - d[0], y = (*corners[n])[1] - d[1];
+    m[n] = {{ x, y, x * x + y * y }};
+  }
+  return m[0][2] * (m[1][0] * m[2][1] - m[2][0] * m[1][1]) - m[1][2] * (m[0][0] * m[2][1] - m[2][0] * m[0][1])
+       + m[2][2] * (m[0][0] * m[1][1] - m[1][0] * m[0][1]) > 0;
+}
+
+// Hills over n x n vertices that are not quite on a grid.
+testing::Soup terrain(std::uint32_t n, double height)
+{
+  testing::Random random(1);
+  const double step = 1. / (n - 1);
+  testing::Soup soup;
+  for(std::uint32_t j = 0; j < n; ++j)
+    for(std::uint32_t i = 0; i < n; ++i)
+    {
+      const double dx = random(-0.3, 0.3), dy = random(-0.3, 0.3), x = step * (i + (i == 0 || i + 1 == n ? 0 : dx)),
+                   y = step * (j + (j == 0 || j + 1 == n ? 0 : dy));
+      double z = 0;
+      for(int octave = 0; octave < 5; ++octave)
+        z += 0.12 * std::ldexp(std::sin(std::ldexp(7., octave) * x + 1.3 * octave) * std::cos(std::ldexp(6.3, octave) * y - 0.7 * octave), -octave);
+      soup.points.push_back({{ x, y, height * z }});
+    }
+  for(std::uint32_t j = 0; j + 1 < n; ++j)
+    for(std::uint32_t i = 0; i + 1 < n; ++i)
+    {
+      const std::uint32_t a = j * n + i, b = a + 1, c = b + n, d = a + n;
+      const bool bd = is_in_circle(soup.points[a], soup.points[b], soup.points[c], soup.points[d]);
+      soup.triangles.push_back(bd ? std::array<std::uint32_t, 3>{{ a, b, d }} : std::array<std::uint32_t, 3>{{ a, b, c }});
+      soup.triangles.push_back(bd ? std::array<std::uint32_t, 3>{{ b, c, d }} : std::array<std::uint32_t, 3>{{ a, c, d }});
+    }
+  return soup;
+}
+
+// On its intrinsic Delaunay triangulation, a terrain a thousand times steeper consists of needles of which the angles are not to be told in
+// `double`, with u on the way or with the lengths after flips.
+BOOST_AUTO_TEST_CASE(needles_of_a_steep_terrain)
+{
+  const CE::Working_precision precision(200);
+  const auto t = testing::widened<Number>(testing::triangulation(terrain(10, 1e3)));
+  const CE::Conformal_conditions<Number> conditions(t);
+  const auto metric = CE::compute_conformal_metric(t, conditions, CGAL::parameters::retriangulation(Retriangulation::ALWAYS));
+  BOOST_REQUIRE(metric.status == CE::Status::OK);
+  BOOST_TEST(metric.amount == 0);
+  BOOST_TEST(metric.faces.empty());
+  BOOST_CHECK(metric.statistics.delaunay == CE::Delaunay_property::EXACT || metric.statistics.delaunay == CE::Delaunay_property::WITHIN_ROUNDING);
+  CE::Conformal_conditions<Number> on_double(metric.triangulation);
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    if(t.is_border_vertex(v))
+      on_double.fix_log_scale_factor(v, Number(0));
+  BOOST_TEST(measured_residual(metric, on_double) <= Number(1e-12));
+  BOOST_TEST(metric.statistics.largest_u - metric.statistics.least_u > 50); // e^50 between the lengths of neighbors and the farthest
+}
+
 // Newton's method with all of its linear algebra in the wide type.
 template <typename Wide, typename NT>
 void check_wide_steps(const CE::Intrinsic_triangulation<NT>& t, double limit, int steps)

@@ -267,6 +267,8 @@ public:
     return is_changed;
   }
 
+  void take_flips_back() override { energy_.begin_anew(); }
+
 private:
   void fold()
   {

@@ -126,6 +126,18 @@ public:
     return true;
   }
 
+  // On long ways through many triangulations the bounds of the errors of lengths grow, until nothing can be decided any
+  // more. The triangulation at u does not depend on the way: it is found again from the one given.
+  void begin_anew()
+  {
+    t_ = given_;
+    flipper_ = std::make_unique<Delaunay_flipper<Length> >(t_);
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+      this->update_length(e);
+    observer_.begin_anew(t_);
+    is_worn_ = false;
+  }
+
 private:
   // Adds the time until its end.
   class Timer
@@ -219,18 +231,6 @@ private:
     return !flipped.empty();
   }
 
-  // On long ways through many triangulations the bounds of the errors of lengths grow, until nothing can be decided any
-  // more. The triangulation at u does not depend on the way: it is found again from the one given.
-  void begin_anew()
-  {
-    t_ = given_;
-    flipper_ = std::make_unique<Delaunay_flipper<Length> >(t_);
-    for(Index e = 0; e < t_.number_of_edges(); ++e)
-      this->update_length(e);
-    observer_.begin_anew(t_);
-    is_worn_ = false;
-  }
-
   Triangulation& t_;
   const Triangulation given_;
   std::unique_ptr<Delaunay_flipper<Length> > flipper_;
@@ -272,6 +272,7 @@ public:
   std::size_t number_of_probes() const override { return energy_.number_of_probes(); }
   double relax(std::uint32_t v, double target, double x, double most, double close) override { return energy_.relax(v, target, x, most, close); }
   bool make_delaunay(const Factors& s, const Vertex_vector& u) override { return energy_.make_delaunay(s, u); }
+  void take_flips_back() override { energy_.begin_anew(); }
 
 private:
   Ideal_delaunay_energy<NT> energy_;

@@ -86,6 +86,9 @@ public:
   // Flips what is not Delaunay at the factors s, of which the logarithms are u / 2, beyond the errors of the lengths. Returns whether
   // there were any edges to flip.
   virtual bool make_delaunay(const Factors& /* s */, const Vertex_vector& /* u */) { return false; }
+
+  // Goes back to the triangulation given, as after many flips lengths may be known too little to tell what is Delaunay.
+  virtual void take_flips_back() {}
 };
 
 } // namespace internal

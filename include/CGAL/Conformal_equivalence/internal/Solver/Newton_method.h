@@ -79,7 +79,7 @@ public:
       if(!visitor_.go_further())
         return Status::STOPPED_BY_VISITOR;
       if(iteration == options_.number_of_iterations || (is_careful() && (has_stopped() || eliminate_.is_in_vain())))
-        return Status::ITERATIONS_EXHAUSTED;
+        return is_left_to_needles(size, u) ? Status::OK : Status::ITERATIONS_EXHAUSTED;
       if(is_crawling(iteration, u))
         return Status::ITERATIONS_EXHAUSTED;
       if(!solver_.has_factor() && !solver_.factorize(energy_.weights()))
@@ -89,7 +89,7 @@ public:
       if(has_given_up_)
         return Status::ITERATIONS_EXHAUSTED;
       if(!stepped)
-        return size <= 10 * rounding_floor() ? Status::OK : Status::ITERATIONS_EXHAUSTED;
+        return size <= 10 * rounding_floor() || is_left_to_needles(size, u) ? Status::OK : Status::ITERATIONS_EXHAUSTED;
       ++statistics_.number_of_iterations;
       if(active_set_.settle(u))
         evaluate(u, residual_);
@@ -125,10 +125,23 @@ private:
       least_ = size;
       last_gain_ = iteration;
     }
-    if(iteration < last_gain_ + 5 || size > 1)
+    return iteration >= last_gain_ + 5 && is_at_floor(size, u, 1);
+  }
+
+  // Is what is left no more than rounding may have done? (Of more than `most` it is not to be believed.)
+  bool is_at_floor(double size, const Vertex_vector& u, double most)
+  {
+    if(size > most)
       return false;
     statistics_.residual_floor = floor_ = measured_floor();
     return size <= (std::max)(10., 4 * largest_entry(u)) * floor_; // (u itself is rounded)
+  }
+
+  // At the end, is it up to the wider type to tell the angles of needles? (There is none where numbers range too far for the last steps.)
+  bool is_left_to_needles(double size, const Vertex_vector& u)
+  {
+    const double most = 4; // radians: pi, at a needle of which the angles are not to be told, and a little more
+    return is_careful() && !energy_.ranges_far() && is_at_floor(size, u, most);
   }
 
   // r at u; false if u is out of the range of double.

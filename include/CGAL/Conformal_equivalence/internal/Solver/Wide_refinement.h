@@ -11,6 +11,7 @@
 #include <CGAL/Conformal_equivalence/Conformal_metric.h>
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Abstract_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
@@ -55,6 +56,9 @@ public:
     : energy_(energy), linear_(linear), scales_(scales), conditions_(conditions), bounds_(bounds), tolerance_(tolerance)
   {}
 
+  // Keeps a reference to what may stop steps with flips, which take long.
+  void set_visitor(const Any_visitor& visitor) { visitor_ = &visitor; }
+
   // The factors that Newton's method has found.
   void begin(Vertex_vector& u, Metric& result) const
   {
@@ -77,10 +81,18 @@ public:
       const double goal = round < most_careful_rounds ? careful_goal() : tolerance_;
       result.statistics.residuals.resize(steps);
       result.status = Status::OK;
+      const std::vector<Wide_number> start = result.scale_factors;
       if(bounds_.empty())
         refine(conditions_, goal, result);
       else
         refine_within_bounds(goal, u, result);
+      if(may_be_resolved_by_flips(result) && resolve_by_flips(u, start, result))
+      {
+        result.statistics.residuals.resize(steps);
+        result.status = Status::OK;
+        result.amount = 0;
+        refine(conditions_, goal, result);
+      }
       if(!is_success(result.status) || !energy_.make_delaunay(result.scale_factors, u))
         return;
     }
@@ -169,6 +181,93 @@ private:
     result.amount = result.statistics.residual;
     result.status = result.statistics.residual <= result.statistics.residual_floor ? Status::CONVERGED_TO_ROUNDING
                                                                                    : Status::ITERATIONS_EXHAUSTED;
+  }
+
+  // Was `double` too short to come near to the solution? Then angles of needles are known too little in it to tell which edges are to be flipped.
+  bool may_be_resolved_by_flips(const Metric& result) const
+  {
+    const double close = 1e-6; // what `double` leaves where there are no such needles
+    return result.status == Status::ITERATIONS_EXHAUSTED && result.statistics.residual > close && bounds_.empty() && energy_.has_flips()
+        && !energy_.ranges_far();
+  }
+
+  // Newton's method in the wide type, with flips, from the factors `start` on: for metrics with needles of which the angles go from 0 to pi while
+  // u changes by less than `double` can tell. Steps are halved until residuals become less. Returns whether it has come near to the solution.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
+  bool resolve_by_flips(const Vertex_vector& u, const std::vector<Wide_number>& start, Metric& result)
+  {
+    const int most_steps = 100, most_halvings = 60;
+    const Wide_number close(1e-6);
+    std::vector<Wide_number>& s = result.scale_factors;
+    s = start;
+    flip_at(s, u);
+    Scaled_vector residual = energy_.residual_at(s, conditions_);
+    Wide_number size = residual.template largest<Wide_number>();
+    const int a_while = 20;
+    Wide_number size_before = 2 * size; // a while ago
+    for(int step = 0; size > close; ++step)
+    {
+      if(step % a_while == 0)
+      {
+        if(size > 0.9 * size_before)
+          return false;
+        size_before = size;
+      }
+      if(visitor_ != nullptr && !visitor_->go_further())
+      {
+        result.status = Status::STOPPED_BY_VISITOR;
+        return false;
+      }
+      std::vector<Wide_number> moved;
+      if(step == most_steps || !make_short_step(residual, s, moved))
+        return false;
+      Scaled_vector next;
+      Wide_number next_size = size;
+      for(int halving = 0; halving < most_halvings && !(next_size < size); ++halving)
+      {
+        if(halving > 0)
+          for(std::size_t v = 0; v < s.size(); ++v)
+            moved[v] = s[v] + (moved[v] - s[v]) / 2;
+        flip_at(moved, u);
+        next = energy_.residual_at(moved, conditions_);
+        next_size = next.template largest<Wide_number>();
+      }
+      if(!(next_size < size))
+        return false;
+      s.swap(moved);
+      std::swap(residual, next);
+      size = next_size;
+    }
+    return true;
+  }
+
+  // To the Delaunay triangulation, if need be from the one given on.
+  void flip_at(const std::vector<Wide_number>& s, const Vertex_vector& u)
+  {
+    energy_.make_delaunay(s, u);
+    if(energy_.faces_violated_at(s).empty())
+      return;
+    energy_.take_flips_back();
+    energy_.make_delaunay(s, u);
+  }
+
+  // A step of Newton's, or as much of it as changes no factor by more than about itself: where angles hardly change steps are much too long.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
+  bool make_short_step(Scaled_vector residual, const std::vector<Wide_number>& s, std::vector<Wide_number>& moved) const
+  {
+    const int most_attempts = 5;
+    double change = 2;
+    for(int attempt = 0; attempt < most_attempts && change > 1; ++attempt)
+    {
+      moved = s;
+      if(!energy_.add_newton_step(linear_.graph(), residual, moved))
+        return false;
+      change = 0;
+      for(std::size_t v = 0; v < s.size(); ++v)
+        change = (std::max)(change, std::abs(static_cast<double>(Wide_number(moved[v] / s[v])) - 1));
+      residual.exponent -= change < 1e300 ? 2 + std::ilogb(std::sqrt((std::max)(1., change))) : 500; // which is d^2 / 8 for a large step d
+    }
+    return change <= 1;
   }
 
   // Smaller than asked for, so that layouts are not spoiled by the sum of all residuals.
@@ -272,6 +371,7 @@ private:
   const Conformal_conditions<NT>& conditions_;
   const Lower_bounds& bounds_;
   const double tolerance_;
+  const Any_visitor* visitor_ = nullptr;
 };
 
 } // namespace internal
