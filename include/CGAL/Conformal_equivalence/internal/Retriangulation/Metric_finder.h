@@ -19,7 +19,6 @@
 #include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Folded_double.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Surface_double.h>
-#include <CGAL/Conformal_equivalence/internal/Retriangulation/Tempered_lengths.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/ideal_delaunay_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/resolve_degenerate_faces.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/tell_flips.h>
@@ -126,36 +125,6 @@ private:
       discard(result, stopwatch.seconds());
       go_on_from_foreseen([&] { solve_on_double(conditions, options, result); }, stopwatch, result);
     }
-    if(!is_final && has_lost_its_way(conditions, options, result))
-      approach_and_solve(conditions, options, stopwatch, result);
-  }
-
-  // Did Newton's method not even come near to a solution, although it had all the steps that it is worth to go there in small ones?
-  static bool has_lost_its_way(const Conditions& conditions, const Solver_options& options, const Metric& result)
-  {
-    const double close = 1e-3; // in radians
-    const std::size_t enough = 50; // steps
-    return !options.is_estimate && !conditions.has_bounds() && options.number_of_iterations >= enough
-        && ((result.status == Status::ITERATIONS_EXHAUSTED && !(result.statistics.residual < close))
-            || (result.status == Status::SCALE_OUT_OF_RANGE && result.log_scale_factors.empty()));
-  }
-
-  // The last one of the ways once more, through metrics of tempered lengths. If that comes to nothing, too, what was said before remains.
-  CGAL_CONFORMAL_EQUIVALENCE_COLD
-  void approach_and_solve(const Conditions& conditions, const Solver_options& options, const Stopwatch& stopwatch, Metric& result)
-  {
-    Metric lost = result;
-    foreseen_.clear();
-    discard(result, stopwatch.seconds());
-    is_to_approach_ = true;
-    if(may_be_doubled(options))
-      solve_on_double(conditions, options, result);
-    else
-      solve_flipping(conditions, options, result);
-    is_to_approach_ = false;
-    const bool is_found = is_success(result.status) || (result.status == Status::SCALE_OUT_OF_RANGE && !result.log_scale_factors.empty());
-    if(!is_found && result.status != Status::STOPPED_BY_VISITOR)
-      result = std::move(lost);
   }
 
   // Tries a way that goes on where the last one was given up, if it was; if it comes to nothing, once more from elsewhere: what was near to
@@ -292,9 +261,6 @@ private:
     Recording_flip_observer<NT> observer(result.flips, linear_);
     if(!make_delaunay_if_asked(options, observer, result))
       return;
-    if(is_to_approach_
-       && !approach(conditions, options, observer, [&] { return Flipping_energy<NT>(result.triangulation, observer); }, result))
-      return;
     const double seconds = stopwatch.seconds();
     Flipping_energy<NT> energy(result.triangulation, observer);
     energy.ideal().set_visitor(options.visitor);
@@ -319,9 +285,6 @@ private:
     Folded_flip_observer<NT> observer(result.flips, linear_, folded);
     if(!make_delaunay_if_asked(options, observer, result))
       return;
-    if(is_to_approach_
-       && !approach(conditions, options, observer, [&] { return Folded_energy<NT>(result.triangulation, folded, observer); }, result))
-      return;
     const double seconds = stopwatch.seconds();
     Folded_energy<NT> energy(result.triangulation, folded, observer);
     energy.ideal().set_visitor(options.visitor);
@@ -330,53 +293,6 @@ private:
     tell_about_flips(energy.ideal(), seconds, options, result);
     if(is_success(result.status))
       result.lost_border_edges = twofold.lost_border_edges(triangulation_, result.triangulation, result.flips);
-  }
-
-  // Makes `foreseen_` near to the solution, through those for tempered lengths, each of which is found up to what the next one is off by anyway.
-  // The energies that `make_energy` makes flip the triangulation of the result, which afterwards is what it was. Returns whether that was possible.
-  template <typename Make_energy>
-  CGAL_CONFORMAL_EQUIVALENCE_COLD
-  bool approach(const Conditions& conditions, const Solver_options& options, Flip_observer<NT>& observer, const Make_energy& make_energy,
-                Metric& result)
-  {
-    const Triangulation given = result.triangulation;
-    Tempering tempering(triangulation_.number_of_vertices());
-    while(!tempering.is_done())
-    {
-      result.triangulation = given.with_lengths(tempered_lengths(given, tempering.next_exponent()));
-      auto energy = make_energy();
-      energy.ideal().set_visitor(options.visitor);
-      Vertex_vector u = tempering.guess();
-      Statistics statistics;
-      const Status status = come_near(energy, conditions, options, u, statistics);
-      result.statistics.number_of_discarded_iterations += statistics.number_of_iterations;
-      result.triangulation = given;
-      observer.begin_anew(given);
-      if(status == Status::OK)
-        tempering.accept(std::move(u), statistics.number_of_iterations);
-      else if(status == Status::STOPPED_BY_VISITOR || !tempering.shorten())
-      {
-        result.status = status;
-        return false;
-      }
-    }
-    foreseen_ = tempering.u();
-    return true;
-  }
-
-  Status come_near(Refinable_energy<NT>& energy, const Conditions& conditions, const Solver_options& options, Vertex_vector& u,
-                   Statistics& statistics)
-  {
-    set_up(energy, conditions, options);
-    linear_.forget_factor();
-    const Starting_point start = move_to_fixed_factors(energy, linear_, triangulation_, conditions, u);
-    if(!start.has_factor)
-      return Status::SINGULAR_PROBLEM;
-    Newton_options roughly = newton_options(options, Lower_bounds(), false);
-    roughly.tolerance = (std::max)(roughly.tolerance, 0.1);
-    const Status status = Newton_method(energy, linear_, targets(conditions), roughly, statistics, options.visitor)(u, start.is_evaluated);
-    scales_.center(u);
-    return status;
   }
 
   // With `Retriangulation::ALWAYS`: makes the triangulation of the result the intrinsic Delaunay triangulation of the metric given, by
@@ -465,7 +381,9 @@ private:
   void minimize(Refinable_energy<NT>& energy, const Conditions& conditions, const Solver_options& options, bool may_give_up, Metric& result)
   {
     has_given_up_ = false;
-    set_up(energy, conditions, options);
+    energy.set_concurrency(Concurrency(options.number_of_threads));
+    linear_.set_number_of_threads(options.number_of_threads);
+    linear_.set_free(scales_.free_vertices(conditions));
     const Lower_bounds bounds = scales_.lower_bounds(conditions);
     hold_one_of_each(bounds);
     const std::size_t factorizations_before = linear_.number_of_factorizations();
@@ -496,13 +414,6 @@ private:
     result.statistics.number_of_factorizations = linear_.number_of_factorizations() - factorizations_before;
     result.statistics.number_of_regularized_rows = linear_.number_of_regularized_rows();
     judge(energy, options.is_estimate, result);
-  }
-
-  void set_up(Refinable_energy<NT>& energy, const Conditions& conditions, const Solver_options& options)
-  {
-    energy.set_concurrency(Concurrency(options.number_of_threads));
-    linear_.set_number_of_threads(options.number_of_threads);
-    linear_.set_free(scales_.free_vertices(conditions));
   }
 
   // Where numbers range too far for the last steps, to the tolerance itself.
@@ -635,7 +546,6 @@ private:
   Vertex_vector last_u_;
   Vertex_vector foreseen_; // where an attempt was given up on the way to its end, if any was
   bool has_given_up_ = false; // the last attempt, as triangles would have remained broken
-  bool is_to_approach_ = false; // through tempered lengths
   bool linear_has_flips_ = false; // the edges of `linear_` are not those of `triangulation_`
 };
 
@@ -664,7 +574,6 @@ Conformal_metric<NT> Metric_finder<NT>::find(const Conditions& conditions, const
   const Stopwatch stopwatch;
   Metric result;
   foreseen_.clear();
-  is_to_approach_ = false;
   try
   {
     try_in_turn(conditions, options, result);

@@ -192,53 +192,59 @@ private:
   }
 
   // Newton's method in the wide type, with flips, from the factors `start` on: for metrics with needles of which the angles go from 0 to pi while
-  // u changes by less than `double` can tell. Steps are halved until residuals become less. Returns whether it has come near to the solution.
+  // u changes by less than `double` can tell. Returns whether it has come near to the solution.
   CGAL_CONFORMAL_EQUIVALENCE_COLD
   bool resolve_by_flips(const Vertex_vector& u, const std::vector<Wide_number>& start, Metric& result)
   {
-    const int most_steps = 100, most_halvings = 60;
+    const int most_steps = 100, a_while = 20; // steps
+    const double worth_going_on = 0.9;        // of the residual a while ago
     const Wide_number close(1e-6);
     std::vector<Wide_number>& s = result.scale_factors;
     s = start;
     flip_at(s, u);
     Scaled_vector residual = energy_.residual_at(s, conditions_);
-    Wide_number size = residual.template largest<Wide_number>();
-    const int a_while = 20;
-    Wide_number size_before = 2 * size; // a while ago
+    Wide_number size = residual.template largest<Wide_number>(), size_before = 2 * size;
     for(int step = 0; size > close; ++step)
     {
+      if(step == most_steps || (step % a_while == 0 && size > worth_going_on * size_before))
+        return false;
       if(step % a_while == 0)
-      {
-        if(size > 0.9 * size_before)
-          return false;
         size_before = size;
-      }
       if(visitor_ != nullptr && !visitor_->go_further())
       {
         result.status = Status::STOPPED_BY_VISITOR;
         return false;
       }
-      std::vector<Wide_number> moved;
-      if(step == most_steps || !make_short_step(residual, s, moved))
+      if(!make_damped_step(u, s, residual, size))
         return false;
-      Scaled_vector next;
-      Wide_number next_size = size;
-      for(int halving = 0; halving < most_halvings && !(next_size < size); ++halving)
-      {
-        if(halving > 0)
-          for(std::size_t v = 0; v < s.size(); ++v)
-            moved[v] = s[v] + (moved[v] - s[v]) / 2;
-        flip_at(moved, u);
-        next = energy_.residual_at(moved, conditions_);
-        next_size = next.template largest<Wide_number>();
-      }
-      if(!(next_size < size))
-        return false;
-      s.swap(moved);
-      std::swap(residual, next);
-      size = next_size;
     }
     return true;
+  }
+
+  // A step, halved until the residual becomes less.
+  CGAL_CONFORMAL_EQUIVALENCE_COLD
+  bool make_damped_step(const Vertex_vector& u, std::vector<Wide_number>& s, Scaled_vector& residual, Wide_number& size)
+  {
+    const int most_halvings = 60;
+    std::vector<Wide_number> moved;
+    if(!make_short_step(residual, s, moved))
+      return false;
+    for(int halving = 0; halving < most_halvings; ++halving)
+    {
+      flip_at(moved, u);
+      Scaled_vector next = energy_.residual_at(moved, conditions_);
+      const Wide_number next_size = next.template largest<Wide_number>();
+      if(next_size < size)
+      {
+        s.swap(moved);
+        residual = std::move(next);
+        size = next_size;
+        return true;
+      }
+      for(std::size_t v = 0; v < s.size(); ++v)
+        moved[v] = s[v] + (moved[v] - s[v]) / 2;
+    }
+    return false;
   }
 
   // To the Delaunay triangulation, if need be from the one given on.
