@@ -72,6 +72,20 @@ private:
   std::shared_ptr<Interface> visitor_;
 };
 
+// Asks another visitor whether to go on, and tells it nothing: of what is only a part of a search.
+class Asking_visitor
+{
+public:
+  explicit Asking_visitor(Any_visitor other) : other_(std::move(other)) {}
+
+  void on_stage(Stage) {}
+  void on_iteration(std::size_t, double) {}
+  bool go_further() { return other_.go_further(); }
+
+private:
+  Any_visitor other_;
+};
+
 // The visitor among the named parameters; one that does nothing if there is none.
 template <typename NamedParameters>
 Any_visitor visitor_of(const NamedParameters& np)

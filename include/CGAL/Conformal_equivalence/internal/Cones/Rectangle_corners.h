@@ -38,15 +38,6 @@ struct Rectangle_corners : public Outcome
   std::array<std::uint32_t, 4> corners{};     // in their order along the border
 };
 
-// Asks whether to go on, and tells nothing: of what is only a part of a search.
-struct Asking_visitor : public Default_visitor
-{
-  Any_visitor visitor;
-
-  explicit Asking_visitor(const Any_visitor& visitor) : visitor(visitor) {}
-  bool go_further() const { return visitor.go_further(); }
-};
-
 typedef std::array<std::uint32_t, 4> Corner_choice; // positions among the candidates, increasing
 
 // The Dirichlet energy of u, as a function of the corners, for an u that depends on them linearly.

@@ -123,20 +123,6 @@ Conformal_metric<NT> metric_with_triangulation(Intrinsic_triangulation<NT> t, co
   return result;
 }
 
-// Asks another visitor whether to go on, and tells it nothing.
-class Asking_visitor
-{
-public:
-  explicit Asking_visitor(Any_visitor other) : other_(std::move(other)) {}
-
-  void on_stage(Stage) {}
-  void on_iteration(std::size_t, double) {}
-  bool go_further() { return other_.go_further(); }
-
-private:
-  Any_visitor other_;
-};
-
 // Brings metrics back to what is prescribed for the vertices.
 class Turning_projection
 {
