@@ -359,7 +359,7 @@ void parse_seamless(const po::variables_map& values, Options& options)
   options.lattice_coordinates = values["lattice-coordinates"].as<bool>();
   if(is_given(values, "holonomy"))
     options.holonomy_file = values["holonomy"].as<std::string>();
-  exclude(values, "--seamless", {"projective", "refine"}); // what is deformed is not conformal, and has no such weights
+  exclude(values, "--seamless", {"projective"}); // what is deformed is not conformal, and has no such weights
   if(values["frame"].as<std::string>() == "unit-square")
     throw Usage_error("--seamless and --frame unit-square exclude each other");
   if(is_given(values, "tiles"))
