@@ -209,19 +209,27 @@ std::string advice_on_scale(const Options& options, double range_of_u)
   return precision.empty() ? text(" (further than coordinates of ", most_bits, " bits)") : " (" + precision + " or more helps)";
 }
 
-std::string advice_on_injectivity(const Options& options, const CE::Statistics& statistics)
+// Where edges were flipped, the parts of triangles can be laid out although straight triangles cannot; `is_one_of_several`: components.
+std::string advice_on_seamless(const Options& options, const CE::Statistics& statistics, bool is_one_of_several)
+{
+  return statistics.number_of_flips != 0 && ! options.refine && ! is_one_of_several
+       ? " (edges were flipped: --refine lays out the parts into which they cut the triangles; more --tiles or other --cones may help, too)"
+       : " (more --tiles or other --cones may help)";
+}
+
+std::string advice_on_injectivity(const Options& options, const CE::Statistics& statistics, bool is_one_of_several)
 {
   if(options.target != Target::PLANE && keeps_triangulation(options))
     return flips;
   if(options.seamless || options.places_cones) // not by rounding
-    return options.seamless ? " (more --tiles or other --cones may help)" : "";
+    return options.seamless ? advice_on_seamless(options, statistics, is_one_of_several) : "";
   const std::string on_range = options.local_repair ? "" : advice_on_range(options, statistics);
   if(! on_range.empty())
     return on_range;
   return options.precision_in_bits == bits_of_double && ! options.local_repair ? " (--precision BITS has more digits)" : "";
 }
 
-std::string advice(const Options& options, const Report& report)
+std::string advice(const Options& options, const Report& report, bool is_one_of_several)
 {
   switch(report.status)
   {
@@ -245,7 +253,7 @@ std::string advice(const Options& options, const Report& report)
     case CE::Status::BOUND_NOT_MET:
       return " (more cones, or a looser bound, may help)";
     case CE::Status::NOT_INJECTIVE:
-      return advice_on_injectivity(options, report.statistics);
+      return advice_on_injectivity(options, report.statistics, is_one_of_several);
     default:
       return "";
   }
@@ -256,6 +264,7 @@ std::string advice(const Options& options, const Report& report)
 std::string explanation(const Options& options, const Given_surface& given, const Mesh& mesh, const Conditions& conditions, const Report& report,
                         Face face)
 {
+  const std::string its_advice = advice(options, report, face != Mesh::null_face());
   if(report.status == CE::Status::ANGLE_OUT_OF_RANGE && report.amount > 0)
   {
     const std::string sum = wrong_sum_of_angles(mesh, conditions, face);
@@ -266,9 +275,9 @@ std::string explanation(const Options& options, const Given_surface& given, cons
   {
     const std::string edge = edge_too_long(given, mesh, conditions, report);
     if(! edge.empty())
-      return CE::message(report.status) + edge + advice(options, report);
+      return CE::message(report.status) + edge + its_advice;
   }
-  return message_in_degrees(report) + advice(options, report);
+  return message_in_degrees(report) + its_advice;
 }
 
 } // namespace flattening

@@ -127,6 +127,17 @@ std::string reason_of_failure(const Options& options, const Given_surface& given
        + explanation(options, given, mesh, conditions, report, component.first_face);
 }
 
+// Whether it is the refinement that is written.
+bool make_refinement_if_needed(const Options& options, const Report& report, Results& results)
+{
+  if(options.seamless) // it was made together with its layout
+    return results.made.mesh.number_of_faces() != 0;
+  const bool is_needed = is_refinement_needed(options, report, results.refinement);
+  if(is_needed)
+    make_refined_mesh(options, results.given, results.refinement, results.made);
+  return is_needed;
+}
+
 // Solves, judges, writes. Returns names and values for the terminal.
 Lines flatten_and_write(const Options& options, const Given_surface& given, Mesh& mesh, Material_files& beside, Progress& progress, Figures& figures,
                         Output_files& files)
@@ -142,9 +153,7 @@ Lines flatten_and_write(const Options& options, const Given_surface& given, Mesh
   find_range_of_u(results.given, figures);
   describe_components(results.given, figures);
 
-  const bool is_refined = is_refinement_needed(options, figures.report, results.refinement);
-  if(is_refined)
-    make_refined_mesh(options, results.given, results.refinement, results.made);
+  const bool is_refined = make_refinement_if_needed(options, figures.report, results);
   Result& drawn = is_refined || options.local_repair ? results.made : results.given;
   if(options.target != Target::PLANE && ! results.components.empty())
     place_images_side_by_side(options.target, results);

@@ -33,6 +33,22 @@ void invert(Seam_path& path, int symmetry)
   path.translation = {{ -p[0], -p[1] }};
 }
 
+// The vertices of the mesh given on a path of a mesh that begins with them. Between two of them lie parts of one edge, as seams run along edges, and
+// paths end at cones, borders and where seams meet.
+std::vector<Vertex> given_vertices(const Mesh& given, const Mesh& mesh, const std::vector<Halfedge>& path)
+{
+  std::vector<Vertex> result;
+  const auto add = [&](Vertex v)
+  {
+    if(v.idx() < given.number_of_vertices())
+      result.push_back(v);
+  };
+  add(mesh.source(path.front()));
+  for(Halfedge h : path)
+    add(mesh.target(h));
+  return result;
+}
+
 // Every triangle of chords, laid out in the plane by itself.
 void lay_out_chords(Result& result)
 {
@@ -89,27 +105,31 @@ void take_over_verdict(Target target, const Result& drawn, Figures& figures)
 
 } // namespace
 
-std::vector<Seam_path> seam_paths(const Mesh& mesh, const UV_map& uv, const Report& report)
+std::vector<Seam_path> seam_paths(const Mesh& given, const Result& drawn, const Report& report)
 {
   std::unordered_map<std::size_t, const CE::Seam_transition<Mesh>*> transition_at;
   for(const auto& transition : report.transitions)
-    transition_at.emplace(mesh.edge(transition.halfedge).idx(), &transition);
+    transition_at.emplace(given.edge(transition.halfedge).idx(), &transition);
 
-  const Layout_seams<Mesh, UV_map> seams(mesh, uv, true);
+  const Layout_seams<Mesh, UV_map> seams(drawn.mesh, drawn.uv, true);
   std::vector<Seam_path> paths;
   for(const std::vector<Halfedge>& path : seams.paths())
   {
-    const auto found = transition_at.find(mesh.edge(path.front()).idx());
+    const std::vector<Vertex> vertices = given_vertices(given, drawn.mesh, path);
+    const Halfedge first = vertices.size() < 2 ? Mesh::null_halfedge() : given.halfedge(vertices[0], vertices[1]);
+    if(first == Mesh::null_halfedge())
+      continue;
+    const auto found = transition_at.find(given.edge(first).idx());
     if(found == transition_at.end())
       continue;
     const CE::Seam_transition<Mesh>& transition = *found->second;
     Seam_path result;
-    result.from = mesh.source(path.front());
-    result.to = mesh.target(path.back());
-    result.number_of_edges = path.size();
+    result.from = vertices.front();
+    result.to = vertices.back();
+    result.number_of_edges = vertices.size() - 1;
     result.quanta = transition.quanta;
     result.translation = transition.lattice_translation;
-    if(transition.halfedge != path.front())
+    if(transition.halfedge != first)
       invert(result, report.tiling.symmetry);
     paths.push_back(result);
   }
@@ -157,7 +177,7 @@ void describe_components(const Result& given, Figures& figures)
 void describe_made_mesh(const Results& results, bool is_refined, Figures& figures)
 {
   figures.is_refined = is_refined;
-  figures.number_of_crossings = results.refinement.crossings.size();
+  figures.number_of_crossings = is_refined ? results.made.mesh.number_of_vertices() - results.given.mesh.number_of_vertices() : 0;
   figures.repair = results.repair;
   figures.components = results.components;
   figures.placing_seconds = results.placing_seconds;
@@ -180,7 +200,7 @@ void judge(const Options& options, const Result& given, Result& drawn, Figures& 
     take_over_verdict(options.target, drawn, figures);
   }
   else if(options.seamless)
-    figures.seams = seam_paths(drawn.mesh, drawn.uv, figures.report);
+    figures.seams = seam_paths(given.mesh, drawn, figures.report);
   else if(drawn.wide.is_used) // the triangles were found to be positive before they were rounded
     forget_rounded_triangles(figures);
   find_errors_of_straight_edges(options, given, &given == &drawn, figures);

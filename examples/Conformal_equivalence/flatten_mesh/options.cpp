@@ -91,7 +91,8 @@ po::options_description visible_options()
     ("quantize", word("[DEGREES]"), "the angles of cones are multiples of this one, 360 / n (90 if none "
        "is given): those of --cones auto are rounded, those of a file have to be")
     ("seamless", po::bool_switch(), "the layout is scaled, turned and deformed as little as it takes, so that a texture of tiles fits across the "
-       "seams; the tiles are squares with --quantize 90 (default) or 180, hexagons with 60 or 120. Each component by itself; all fit the same tiles")
+       "seams; the tiles are squares with --quantize 90 (default) or 180, hexagons with 60 or 120. Each component by itself; all fit the same tiles. "
+       "Where straight triangles would be flipped, it fails; with --refine it mostly does not")
     ("holonomy", word("FILE"), "with --seamless, how loops around handles turn, lines 'k vertex-index vertex-index ...': the "
        "closed curve along these edges, on their left, turns by k times the angle of --quantize, modulo a full turn; by default all are chosen, "
        "as near as can be to what is conformal")
@@ -105,7 +106,8 @@ po::options_description visible_options()
        "always: the result depends on the surface alone, not on its triangulation")
     ("keep-border", po::bool_switch(), "no border edge is flipped, so that all are as long as u at their ends makes them; fails where that cannot be")
     ("refine", po::bool_switch(), "if edges were flipped, write the mesh of the parts into which they cut the triangles, on which the "
-       "map is projective; otherwise this is done with --projective, and where the triangles are flipped if their edges are drawn straight")
+       "map is projective; otherwise this is done with --projective, and where the triangles are flipped if their edges are drawn straight. With "
+       "--seamless, these parts are laid out, of one component, mostly with success where straight triangles would be flipped")
     ("repair", po::bool_switch(), "first make the surface an oriented manifold: equal points are merged, degenerate and duplicate faces "
        "dropped, faces turned, and the surface is taken apart where it is no manifold. No vertex is moved, and all faces of INPUT are written")
     ("local-repair", po::bool_switch(), "no flips on the way; instead, where triangles break, edges of a copy of the mesh are flipped or split, "
@@ -359,7 +361,7 @@ void parse_seamless(const po::variables_map& values, Options& options)
   options.lattice_coordinates = values["lattice-coordinates"].as<bool>();
   if(is_given(values, "holonomy"))
     options.holonomy_file = values["holonomy"].as<std::string>();
-  exclude(values, "--seamless", {"projective", "refine"}); // what is deformed is not conformal, and has no such weights
+  exclude(values, "--seamless", {"projective"}); // what is deformed is not conformal, and has no such weights
   if(values["frame"].as<std::string>() == "unit-square")
     throw Usage_error("--seamless and --frame unit-square exclude each other");
   if(is_given(values, "tiles"))

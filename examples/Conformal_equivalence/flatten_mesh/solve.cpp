@@ -41,7 +41,8 @@ Report map_component(const Options& options, const Conditions& conditions, Resul
     return is_precise(options) ? map_to_sphere_precisely(options, results, progress) : map_to_sphere(options, results, progress);
   if(options.target == Target::DISK)
     return is_precise(options) ? map_to_disk_precisely(options, results, progress) : map_to_disk(options, results, progress);
-  return flatten_seamlessly(options, conditions, results, progress);
+  return options.refine ? flatten_refined_seamlessly(options, conditions, results, progress)
+                        : flatten_seamlessly(options, conditions, results, progress);
 }
 
 Report place_cones_on_component(const Options& options, const Conditions& conditions, Results& results, Progress& progress)
@@ -55,6 +56,8 @@ Report for_each_component(const Options& options, const Conditions& conditions, 
   const Components components(results.given.mesh);
   if(components.size() < 2)
     return door(options, conditions, results, progress);
+  if(options.seamless && options.refine)
+    fail(options.input, ": --seamless --refine takes a surface of one component, and this one has ", components.size());
   check_vertices_of_image(options, results.given.mesh, components);
   Report report = map_each_component(components, options, conditions, results, progress, door);
   if(report && options.seamless)

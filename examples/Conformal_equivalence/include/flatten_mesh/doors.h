@@ -35,6 +35,9 @@ bool is_best_so_far(const Report& placement);
 // A seamless layout, with cones that are given or to be placed.
 Report flatten_seamlessly(const Options& options, const Conditions& conditions, Results& results, Progress& progress);
 
+// The same with --refine: where flipped edges cut triangles, the mesh of `results.made` is made of the parts; else it stays empty.
+Report flatten_refined_seamlessly(const Options& options, const Conditions& conditions, Results& results, Progress& progress);
+
 // The map to the sphere or to the disk, in double or with --precision.
 Report map_to_sphere(const Options& options, Results& results, Progress& progress);
 Report map_to_sphere_precisely(const Options& options, Results& results, Progress& progress);

@@ -25,7 +25,7 @@ inline bool has_squares(int symmetry)  { return symmetry == 2 || symmetry == 4; 
 struct Seam_path
 {
   Vertex from, to;
-  std::size_t number_of_edges = 0;
+  std::size_t number_of_edges = 0; // of the mesh given
   int quanta = 0;
   std::array<std::int64_t, 2> translation = {{0, 0}};
 };
@@ -36,7 +36,11 @@ UV_map add_lattice_coordinates(Mesh& mesh);
 // Cartesian coordinates, which are drawn, for those of the lattice.
 void draw_lattice_coordinates(int symmetry, Result& result);
 
-std::vector<Seam_path> seam_paths(const Mesh& mesh, const UV_map& uv, const Report& report);
+// The layout was found in coordinates of the lattice: these are written, Cartesian ones are drawn.
+void keep_lattice_coordinates(int symmetry, Result& result);
+
+// Of the layout that is drawn, with the vertices and edges of the mesh given, of which it may be a refinement.
+std::vector<Seam_path> seam_paths(const Mesh& given, const Result& drawn, const Report& report);
 
 } // namespace flattening
 

@@ -16,6 +16,7 @@ Report flatten(const Options& options, const Conditions& conditions, Results& re
 
 // Is the common refinement to be written, instead of the mesh? It has to be where edges were flipped and straight triangles will not do, or
 // where the map in them is wanted, which is projective only on the parts; for the disk, also where the border is no polygon of border edges.
+// Seamless layouts of refinements, which are other ones, are made as such.
 bool is_refinement_needed(const Options& options, const Report& report, const Refinement& refinement);
 
 } // namespace flattening
