@@ -90,7 +90,7 @@ void take_over_layout(Results& results)
     if(given.mesh.is_border(h))
       given.uv[h] = given.uv[given.mesh.prev(given.mesh.opposite(h))];
   made.given_face.clear();
-  made.mesh.clear();
+  made.mesh.clear_without_removing_property_maps();
 }
 
 } // namespace
