@@ -37,7 +37,6 @@ struct Hyperbolic_incircle_vectors : public Triangle_vectors<bytes>
   // Triangles by the x = sinh(l/2) of their sides.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(const Vector (&x)[3])
   {
-    const Vector zero = {}, one = zero + 1.;
     Vector y[3], m[3], p[3], excess[3], tangent[3];
     for(int k = 0; k < 3; ++k)
     {
@@ -57,10 +56,8 @@ struct Hyperbolic_incircle_vectors : public Triangle_vectors<bytes>
       const int i = (k + 1) % 3, j = (k + 2) % 3;
       tangent[k] = (excess[k] + x[i] * m[j] + x[j] * m[i]) * ((p[k] + x[k]) * unit);
     }
-    const Vector square = tangent[0] * tangent[1] * tangent[2] / s;
-    const auto is_safe = (tangent[0] > 0.) & (tangent[1] > 0.) & (tangent[2] > 0.) & (square > 1e-200) & (square < 1e200);
-    Vector r, half, is_hyperbolic = is_safe ? one : zero;
-    Base::set_root(is_safe ? square : one, r);
+    Vector r, half, is_hyperbolic;
+    Base::set_radius(tangent, s, r, is_hyperbolic);
     for(int k = 0; k < 3; ++k)
     {
       Base::set_arc_tangent(r, tangent[k], half);
@@ -73,12 +70,10 @@ private:
   // As hyperbolic_weights() has them where the chords form a triangle, of which `excess` is twice that from the corners to the inscribed circle.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute_weights(const Vector (&x)[3], const Vector (&excess)[3], const Vector& is_hyperbolic)
   {
-    const Vector zero = {}, one = zero + 1., tangent[3] = {excess[0] * 0.5, excess[1] * 0.5, excess[2] * 0.5}, s = (x[0] + x[1] + x[2]) * 0.5,
-                 square = tangent[0] * tangent[1] * tangent[2] / s;
-    const auto is_safe = (is_hyperbolic > 0.) & (tangent[0] > 0.) & (tangent[1] > 0.) & (tangent[2] > 0.) & (square > 1e-200) & (square < 1e200);
-    Base::store(is_safe ? one : zero, is_plain);
-    Vector r, cosine, cotangent;
-    Base::set_root(is_safe ? square : one, r);
+    const Vector tangent[3] = {excess[0] * 0.5, excess[1] * 0.5, excess[2] * 0.5}, s = (x[0] + x[1] + x[2]) * 0.5;
+    Vector r, are_chords_plain, cosine, cotangent;
+    Base::set_radius(tangent, s, r, are_chords_plain);
+    Base::store(is_hyperbolic * are_chords_plain, is_plain);
     const Vector sinh_radius = x[0] / r * (x[1] / s) * x[2] * 0.5;
     Base::set_root(1. + sinh_radius * sinh_radius, cosine);
     const Vector unit = 0.5 / cosine;

@@ -168,11 +168,9 @@ private:
   void lay_out_with_more_digits(Hyperbolic_metric_finder<double>& finder, const Loop_system& loops, double accurate_enough,
                                 Hyperbolic_layout<double, Wide>& layout)
   {
-    const auto precise = [](const Wide& x) { return Precise_number(x.hi) + Precise_number(x.lo); };
-    const auto wide = [](const Precise_number& x) { return From_precise<Wide>()(x); };
     std::vector<Precise_number> s;
     for(const Wide& x : result_.metric.scale_factors)
-      s.push_back(precise(x));
+      s.push_back(To_precise()(x));
     for(const double goal : {1e-60, 1e-120, 1e-240})
     {
       finder.improve(result_.metric, s, Precise_number(goal));
@@ -182,9 +180,9 @@ private:
       {
         result_.relation_error = error;
         for(std::size_t n = 0; n < found.generator.size(); ++n)
-          layout.generator[n] = found.generator[n].template converted<Wide>(wide);
+          layout.generator[n] = found.generator[n].template converted<Wide>(From_precise<Wide>());
         for(std::size_t v = 0; v < found.frame.size(); ++v)
-          layout.frame[v] = found.frame[v].template converted<Wide>(wide);
+          layout.frame[v] = found.frame[v].template converted<Wide>(From_precise<Wide>());
         result_.precise_generators = std::move(found.generator);
       }
       if(result_.relation_error <= accurate_enough)

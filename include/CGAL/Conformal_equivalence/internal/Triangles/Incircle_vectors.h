@@ -32,6 +32,16 @@ struct Triangle_vectors
 
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_root(const Vector& square, Vector& result) { set_root(square, result, Lanes()); }
 
+  // The radius of the inscribed circle, by the tangents from the corners to it and half of the circumference s. `is_plain` becomes 1, or 0 where
+  // the triangle needs care; then the radius is without meaning.
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_radius(const Vector (&tangent)[3], const Vector& s, Vector& r, Vector& is_plain)
+  {
+    const Vector zero = {}, one = zero + 1., square = tangent[0] * tangent[1] * tangent[2] / s;
+    const auto is_safe = (tangent[0] > 0.) & (tangent[1] > 0.) & (tangent[2] > 0.) & (square > 1e-200) & (square < 1e200);
+    is_plain = is_safe ? one : zero;
+    set_root(is_safe ? square : one, r);
+  }
+
   // The cotangent of alpha, by tan(alpha / 2).
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static void set_cotangent(const Vector& q, Vector& result) { result = (1. - q) * (1. + q) / (q + q); }
 
@@ -90,17 +100,14 @@ struct Incircle_vectors : public Triangle_vectors<bytes>
   // Triangles by their sides.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE void compute(const Vector& a, const Vector& b, const Vector& c)
   {
-    Vector tangent[3], r, half, cotangent_of_it;
+    Vector tangent[3], r, plain, half, cotangent_of_it;
     Base::set_excess(a, b, c, tangent[0]);
     Base::set_excess(b, c, a, tangent[1]);
     Base::set_excess(c, a, b, tangent[2]);
     for(int k = 0; k < 3; ++k)
       tangent[k] *= 0.5;
-    const Vector s = (a + b + c) * 0.5, zero = {}, one = zero + 1.;
-    const Vector square = tangent[0] * tangent[1] * tangent[2] / s;
-    const auto is_safe = (tangent[0] > 0.) & (tangent[1] > 0.) & (tangent[2] > 0.) & (square > 1e-200) & (square < 1e200);
-    Base::store(is_safe ? one : zero, is_plain);
-    Base::set_root(is_safe ? square : one, r);
+    Base::set_radius(tangent, (a + b + c) * 0.5, r, plain);
+    Base::store(plain, is_plain);
     for(int k = 0; k < 3; ++k)
     {
       Base::set_arc_tangent(r, tangent[k], half);
