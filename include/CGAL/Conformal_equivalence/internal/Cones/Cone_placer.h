@@ -34,7 +34,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <set>
@@ -53,11 +52,9 @@ class Cone_placer
   typedef Cone_search<NT> Search;
 
 public:
-  typedef std::function<std::unique_ptr<Factorization>()> Make_factorization;
-
   // The search keeps one factor all the time, which must be none of those that are made for metrics meanwhile. Keeps a reference to `t`.
   Cone_placer(const Triangulation& t, const Cone_options& options, const Solver_options& solver_options,
-              std::unique_ptr<Factorization> search_factorization, Make_factorization make_factorization)
+              std::unique_ptr<Factorization> search_factorization, Factorization_maker make_factorization)
     : t_(t), options_(options), solver_options_(solver_options), make_factorization_(std::move(make_factorization)),
       search_factorization_(std::move(search_factorization)), pieces_(connected_components(t)), area_(vertex_areas(t))
   {}
@@ -748,7 +745,7 @@ private:
   const Triangulation& t_;
   const Cone_options options_;
   const Solver_options solver_options_;
-  const Make_factorization make_factorization_;
+  const Factorization_maker make_factorization_;
   std::unique_ptr<Factorization> search_factorization_;
   const Surface_components pieces_;
   const Eigen::VectorXd area_; // by vertex, of one whole

@@ -33,7 +33,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -41,9 +40,6 @@
 namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
-
-// Makes a factorization for each of several linear systems.
-typedef std::function<std::unique_ptr<Factorization>()> Factorization_maker;
 
 // A metric whose triangulation is on its way, with the loops on it. The status is `OK`, `CONVERGED_TO_ROUNDING`, `ITERATIONS_EXHAUSTED`,
 // `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`.
@@ -133,7 +129,7 @@ public:
   // `t` has the vertices of all metrics.
   Turning_projection(const Triangulation& t, const Turning_targets& targets, double tolerance, const Factorization_maker& make_factorization,
                      const Any_visitor& visitor)
-    : conditions_(t), make_factorization_(make_factorization), visitor_(Any_visitor::of(Asking_visitor(visitor)))
+    : conditions_(t), make_factorization_(make_factorization)
   {
     for(Index v = 0; v < t.number_of_vertices(); ++v)
       if(!targets.is_free.empty() && targets.is_free[v])
@@ -144,7 +140,7 @@ public:
     options_.border_edges = Border_edges::KEPT;
     options_.has_come_from_flips = true; // it is Delaunay, and no other triangulation is one of the same metric
     options_.is_estimate = true;         // the last digits are had by Newton's method for all equations together
-    options_.visitor = visitor_;
+    options_.visitor = Any_visitor::of(Asking_visitor(visitor));
   }
 
   // By Ptolemy flips, which leave the point in the space of all decorated hyperbolic metrics where it is. Returns `false` if there are too many, or
@@ -153,7 +149,7 @@ public:
   {
     Delaunay_flipper<double> flipper(metric.triangulation);
     const bool is_done = flipper.flip_to_delaunay(std::vector<double>(), all_edges(metric.triangulation), Flip_rule::PTOLEMY,
-                                                  [&](Index e) { metric.carry_through_flip(e); }, visitor_);
+                                                  [&](Index e) { metric.carry_through_flip(e); }, options_.visitor);
     if(flipper.is_stopped())
       metric.status = Status::STOPPED_BY_VISITOR;
     return is_done;
@@ -188,7 +184,6 @@ private:
 
   Conformal_conditions<double> conditions_;
   Factorization_maker make_factorization_;
-  Any_visitor visitor_;
   Solver_options options_;
 };
 

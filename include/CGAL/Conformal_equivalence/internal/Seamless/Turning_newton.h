@@ -85,9 +85,9 @@ private:
     }
     bool is_valid = true;
     measure(metric_, residual_, is_valid);
-    Turning_metric conformal = metric_;
     if(!is_valid || angle_residual(residual_) > options_.tolerance)
     {
+      Turning_metric conformal = metric_;
       if(projection_.make_conformal(conformal))
         metric_ = std::move(conformal);
       else if(!bool(conformal))

@@ -56,8 +56,8 @@ public:
     : energy_(energy), linear_(linear), scales_(scales), conditions_(conditions), bounds_(bounds), tolerance_(tolerance)
   {}
 
-  // Keeps a reference to what may stop steps with flips, which take long.
-  void set_visitor(const Any_visitor& visitor) { visitor_ = &visitor; }
+  // It may stop steps with flips, which take long.
+  void set_visitor(const Any_visitor& visitor) { visitor_ = visitor; }
 
   // The factors that Newton's method has found.
   void begin(Vertex_vector& u, Metric& result) const
@@ -210,7 +210,7 @@ private:
         return false;
       if(step % a_while == 0)
         size_before = size;
-      if(visitor_ != nullptr && !visitor_->go_further())
+      if(!visitor_.go_further())
       {
         result.status = Status::STOPPED_BY_VISITOR;
         return false;
@@ -377,7 +377,7 @@ private:
   const Conformal_conditions<NT>& conditions_;
   const Lower_bounds& bounds_;
   const double tolerance_;
-  const Any_visitor* visitor_ = nullptr;
+  Any_visitor visitor_;
 };
 
 } // namespace internal
