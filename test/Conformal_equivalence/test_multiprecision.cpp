@@ -22,6 +22,7 @@
 #include <CGAL/Conformal_equivalence/map_to_sphere.h>
 #include <CGAL/Conformal_equivalence/multiprecision.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -516,18 +517,12 @@ BOOST_AUTO_TEST_CASE(u_beyond_the_range_of_double)
   }
 }
 
-// Is d inside of the circle through a, b and c, seen from above?
+// Is d inside of the circle through a, b and c, which are counterclockwise, seen from above?
 bool is_in_circle(const testing::Point& a, const testing::Point& b, const testing::Point& c, const testing::Point& d)
 {
-  std::array<std::array<double, 3>, 3> m;
-  const testing::Point* const corners[] = { &a, &b, &c };
-  for(std::size_t n = 0; n < 3; ++n)
-  {
-    const double x = (*corners[n])[0] - d[0], y = (*corners[n])[1] - d[1];
-    m[n] = {{ x, y, x * x + y * y }};
-  }
-  return m[0][2] * (m[1][0] * m[2][1] - m[2][0] * m[1][1]) - m[1][2] * (m[0][0] * m[2][1] - m[2][0] * m[0][1])
-       + m[2][2] * (m[0][0] * m[1][1] - m[1][0] * m[0][1]) > 0;
+  typedef CGAL::Exact_predicates_inexact_constructions_kernel::Point_2 From_above;
+  return CGAL::side_of_oriented_circle(From_above(a[0], a[1]), From_above(b[0], b[1]), From_above(c[0], c[1]), From_above(d[0], d[1]))
+      == CGAL::ON_POSITIVE_SIDE;
 }
 
 // Hills over n x n vertices that are not quite on a grid.
