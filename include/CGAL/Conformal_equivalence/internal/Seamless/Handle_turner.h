@@ -315,21 +315,15 @@ private:
   Eigen::MatrixXd deformation_form(Turning_metric& start) const
   {
     const Turning_rows rows(start.triangulation, free_vertices_);
+    const Corner_angles corners(start.triangulation);
     const Eigen::Index n = Eigen::Index(start.loops.size()), first = rows.number_of_vertices();
-    Turning_equations equations(start.triangulation, start.loops, rows, Corner_angles(start.triangulation));
+    Turning_equations equations(start.triangulation, start.loops, rows, corners, make_factorization_());
     if(!equations.factorize())
       return Eigen::MatrixXd(0, 0);
     start.directions.resize(Turning_metric::can_keep_directions(n, start.triangulation) ? start.triangulation.number_of_edges() : 0, n);
-    Eigen::MatrixXd result(n, n);
-    for(Eigen::Index j = 0; j < n; ++j)
-    {
-      Eigen::VectorXd right = Eigen::VectorXd::Zero(first + n);
-      right[first + j] = quantum();
-      const Eigen::VectorXd x = equations.solve(right);
-      start.directions.col(j) = x.head(start.directions.rows()) / quantum();
-      result.col(j) = -quantum() * x.tail(n);
-    }
-    result = (result + result.transpose()).eval() / 2;
+    for(Eigen::Index j = 0; j < n && start.directions.rows() > 0; ++j)
+      start.directions.col(j) = equations.least_change(Eigen::VectorXd::Unit(first + n, first + j));
+    Eigen::MatrixXd result = quantum() * quantum() * equations.form();
     result.diagonal() *= 2;
     return result;
   }

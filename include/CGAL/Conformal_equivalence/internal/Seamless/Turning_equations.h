@@ -10,34 +10,36 @@
 //     d alpha_i / d lambda_j = -cot alpha_k / 2,    d alpha_i / d lambda_k = -cot alpha_j / 2.
 //
 // On a closed surface there are |V| - 1 + 2 g equations and |E| = 3 (|V| - 2 + 2 g) unknowns; on others, vertices of the border need have no
-// equations. Of all changes of lambda that solve the linearized equations J d = -c we want the one that leaves the discrete conformal class the
-// least: it minimizes
+// equations. Of all changes d of lambda that solve the linearized equations we want the one that leaves the discrete conformal class the least: it
+// minimizes |Z d|, where c = Z d are the changes of the logarithms of the length cross ratios (Cross_ratio_changes.h). The least norm |d| itself,
+// which suggests itself and is found in the literature (Capouellez and Zorin, "Metric optimization in Penner coordinates", 2023), is a
+// poor guide on irregular meshes.
 //
-//     |Z d|^2 + epsilon |d|^2,
+// No matrix of the size of the edges is factorized for that. Let w be any changes with Z w = c, and d = w + S^T u. The angle sums fix u, by the
+// cotangent Laplacian A: A u = (their changes by w) - (those wanted). What is left is one equation for each loop, and the changes of turnings, with
+// angle sums kept, depend on c alone: they are N c. Least is c = N^T mu, if the rows of N are such c themselves. So with one factor of A there is one
+// solution for each loop, and a matrix N N^T of the size of their number.
 //
-// where Z d are the changes of the logarithms of the length cross ratios. Z vanishes exactly on changes by factors at the vertices (section 2.2 of
-// Springborn, Schroeder and Pinkall, 2008): these cost next to nothing. The least norm |d| itself, which suggests itself and is found
-// in the literature (Capouellez and Zorin, "Metric optimization in Penner coordinates", 2023), is a poor guide on irregular meshes.
-//
-// The minimum is found with its multipliers, by the quasi-definite matrix [W J^T; J -delta], which has an L D L^T factor for any ordering
-// (Vanderbei, "Symmetric quasi-definite matrices", 1995); what delta spoils is mended by iterative refinement.
+// Where u is prescribed, at natural borders, so that angle sums may be any, scales at the border may change as well; they count as c does.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_EQUATIONS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_EQUATIONS_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Cross_ratio_changes.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Dual_loops.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
 #include <CGAL/Conformal_equivalence/internal/Triangles/triangle_formulas.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -91,13 +93,12 @@ public:
 
   // \pre `t` is connected
   explicit Turning_rows(const Intrinsic_triangulation<double>& t, const std::vector<char>& is_free = std::vector<char>())
-    : row_of_vertex_(t.number_of_vertices(), t.null_index)
+    : row_of_vertex_(t.number_of_vertices(), t.null_index), is_any_free_(std::find(is_free.begin(), is_free.end(), char(1)) != is_free.end())
   {
-    const bool is_any_free = std::find(is_free.begin(), is_free.end(), char(1)) != is_free.end();
     for(Index v = 0; v < t.number_of_vertices(); ++v)
       if(!t.is_isolated_vertex(v) && (is_free.empty() || !is_free[v]))
         vertices_.push_back(v);
-    if(!vertices_.empty() && !is_any_free)
+    if(!vertices_.empty() && !is_any_free_)
       vertices_.pop_back();
     for(Index r = 0; r < vertices_.size(); ++r)
       row_of_vertex_[vertices_[r]] = r;
@@ -106,9 +107,11 @@ public:
   Index number_of_vertices() const { return Index(vertices_.size()); }
   Index vertex(Index row) const { return vertices_[row]; }
   Index row(Index v) const { return row_of_vertex_[v]; } // null_index: none
+  bool is_any_free() const { return is_any_free_; }
 
 private:
   std::vector<Index> vertices_, row_of_vertex_;
+  bool is_any_free_;
 };
 
 // By how much the angle sums and turnings exceed their targets.
@@ -128,101 +131,169 @@ inline Eigen::VectorXd turning_residual(const Intrinsic_triangulation<double>& t
   return result;
 }
 
-// The equations at one metric, linearized and factorized.
+// The equations at one metric, linearized. Keeps references to the triangulation, the rows and the angles.
 class Turning_equations
 {
   typedef std::uint32_t Index;
-  typedef Eigen::SparseMatrix<double> Matrix;
 
 public:
-  // the part of the norm in the square that is minimized
-  static constexpr double default_epsilon = 0.1;
+  typedef Eigen::VectorXd Vector;
 
-  Turning_equations(const Intrinsic_triangulation<double>& t, const Dual_loops& loops, const Turning_rows& rows,
-                    const Corner_angles& corners, double epsilon = default_epsilon)
-    : edges_(t.number_of_edges()), rows_(Eigen::Index(rows.number_of_vertices() + loops.size()))
+  Turning_equations(const Intrinsic_triangulation<double>& t, const Dual_loops& loops, const Turning_rows& rows, const Corner_angles& corners,
+                    std::unique_ptr<Factorization> factorization)
+    : t_(t), rows_(rows), corners_(corners), number_of_loops_(Eigen::Index(loops.size())),
+      inside_(t, Factors_at_vertices::Vertices::INSIDE), all_(t, Factors_at_vertices::Vertices::ALL), laplacian_(std::move(factorization)),
+      weights_(t.number_of_edges(), 0.)
   {
-    Triplets entries;
-    add_constraints(t, loops, rows, corners, entries);
-    add_weights(t, epsilon, entries);
-    matrix_.resize(edges_ + rows_, edges_ + rows_);
-    matrix_.setFromTriplets(entries.begin(), entries.end());
+    for(Index h = 0; h < t.number_of_halfedges(); ++h)
+      weights_[t.edge(h)] += corners.cotangent[t.previous(h)];
+    std::vector<char> is_unknown(t.number_of_vertices(), 0);
+    for(Index r = 0; r < rows.number_of_vertices(); ++r)
+      is_unknown[rows.vertex(r)] = 1;
+    laplacian_.set_edges(t);
+    laplacian_.set_free(is_unknown);
+    add_loops(loops);
   }
 
-  // \return `false` if rounding has spoiled the matrix
+  // \return `false` if rounding has spoiled the equations
   bool factorize()
   {
-    const double delta = 1e-10;
-    Matrix shifted = matrix_;
-    for(Eigen::Index i = 0; i < edges_ + rows_; ++i)
-      shifted.coeffRef(i, i) += i < edges_ ? 0 : -delta;
-    factor_.compute(shifted);
-    return factor_.info() == Eigen::Success;
+    factor_.compute(changes_.transpose() * changes_ + scales_.transpose() * scales_);
+    return changes_.allFinite() && factor_.info() == Eigen::Success && (number_of_loops_ == 0 || factor_.rcond() > 0);
   }
 
-  // The least d with J d = right.
-  Eigen::VectorXd least_change(const Eigen::VectorXd& right) const { return solve(right).head(edges_); }
+  // The d that changes angle sums and turnings by `right` and leaves the conformal class the least. \pre `factorize()`
+  Vector least_change(const Vector& right) { return change_to_departure(right, Vector::Zero(Eigen::Index(weights_.size()))); }
 
-  // Its multipliers mu, by equation: |Z d|^2 + epsilon |d|^2 = -mu^T right.
-  Eigen::VectorXd multipliers(const Eigen::VectorXd& right) const { return solve(right).tail(rows_); }
-
-  // Both, one after the other.
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) const
+  // The same where the class has been left already, by the cross ratios `departure`: the least is what is left of it with the change.
+  Vector change_to_departure(const Vector& right, const Vector& departure)
   {
-    const int refinements = 3;
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(edges_ + rows_);
-    b.tail(rows_) = right;
-    Eigen::VectorXd x = factor_.solve(b);
-    for(int n = 0; n < refinements; ++n)
-      x += factor_.solve(b - matrix_.selfadjointView<Eigen::Lower>() * x);
-    return x;
+    const Eigen::Index n = rows_.number_of_vertices();
+    const Vector mu = factor_.solve(right.tail(number_of_loops_) + fluxes_.transpose() * by_vertex(right.head(n)) + changes_.transpose() * departure);
+    const Vector w = all_.rest(changes_with_cross_ratios(t_, changes_ * mu - departure));
+    return w + all_.changes(factors_for(w, right.head(n), scales_ * mu));
   }
+
+  // x^T F x = |Z d|^2, the least with which the loops turn by x more, and angle sums stay. \pre `factorize()`
+  Eigen::MatrixXd form() const { return factor_.solve(Eigen::MatrixXd::Identity(number_of_loops_, number_of_loops_)); }
 
 private:
-  typedef std::vector<Eigen::Triplet<double> > Triplets;
-
-  // The rows of J, below the square of the edges.
-  void add_constraints(const Intrinsic_triangulation<double>& t, const Dual_loops& loops, const Turning_rows& rows,
-                       const Corner_angles& corners, Triplets& entries) const
+  // Calls `visit(edge, derivative)` for the angle at the origin of a halfedge.
+  template <typename Visit>
+  void for_each_derivative(Index corner, Visit visit) const
   {
-    const auto add = [&](Index row, Index corner, double sign) // of the angle at the origin of a halfedge
-    {
-      const Index opposite = t.next(corner), previous = t.previous(corner);
-      const double at_target = corners.cotangent[opposite], at_apex = corners.cotangent[previous];
-      const int r = int(edges_ + row);
-      entries.emplace_back(r, int(t.edge(opposite)), sign * (at_target + at_apex) / 2);
-      entries.emplace_back(r, int(t.edge(corner)), -sign * at_target / 2);  // opposite to the apex: the other cotangent
-      entries.emplace_back(r, int(t.edge(previous)), -sign * at_apex / 2);
-    };
-    for(Index h = 0; h < t.number_of_halfedges(); ++h)
-      if(rows.row(t.origin(h)) != t.null_index)
-        add(rows.row(t.origin(h)), h, 1);
-    for(Index i = 0; i < loops.size(); ++i)
-      loops.for_each_turn(t, i, [&](Index corner, int sign) { add(rows.number_of_vertices() + i, corner, sign); });
-    for(Eigen::Index r = 0; r < rows_; ++r)
-      entries.emplace_back(int(edges_ + r), int(edges_ + r), 0.);
+    const Index opposite = t_.next(corner), previous = t_.previous(corner);
+    const double at_target = corners_.cotangent[opposite], at_apex = corners_.cotangent[previous];
+    visit(t_.edge(opposite), (at_target + at_apex) / 2);
+    visit(t_.edge(corner), -at_target / 2); // opposite to the apex: the other cotangent
+    visit(t_.edge(previous), -at_apex / 2);
   }
 
-  // The lower half of Z^T Z + epsilon.
-  void add_weights(const Intrinsic_triangulation<double>& t, double epsilon, Triplets& entries) const
+  // By how much the angle sums of all vertices change, to first order.
+  Vertex_vector angle_changes(const Vector& d) const
   {
-    for(Index e = 0; e < t.number_of_edges(); ++e)
+    Vertex_vector result(t_.number_of_vertices(), 0.);
+    for(Index h = 0; h < t_.number_of_halfedges(); ++h)
+      for_each_derivative(h, [&](Index e, double derivative) { result[t_.origin(h)] += derivative * d[e]; });
+    return result;
+  }
+
+  // The transpose of that.
+  Vector transposed_angle_changes(const Vertex_vector& y) const
+  {
+    Vector result = Vector::Zero(Eigen::Index(weights_.size()));
+    for(Index h = 0; h < t_.number_of_halfedges(); ++h)
+      for_each_derivative(h, [&](Index e, double derivative) { result[e] += derivative * y[t_.origin(h)]; });
+    return result;
+  }
+
+  // The derivatives of its turning, by edge.
+  Vector derivatives_of_loop(const Dual_loops& loops, std::size_t i) const
+  {
+    Vector result = Vector::Zero(Eigen::Index(weights_.size()));
+    loops.for_each_turn(t_, i, [&](Index corner, int sign)
+      { for_each_derivative(corner, [&](Index e, double derivative) { result[e] += sign * derivative; }); });
+    return result;
+  }
+
+  // With the angle sums kept by factors at the vertices, a loop turns by m d more; and m d = n (Z d) + k u with the scales u of the border. As Z is
+  // skew-symmetric, n is had from m as changes of lengths are from those of cross ratios.
+  void add_loops(const Dual_loops& loops)
+  {
+    changes_.resize(Eigen::Index(weights_.size()), number_of_loops_);
+    scales_.resize(Eigen::Index(t_.number_of_vertices()), number_of_loops_);
+    fluxes_.resize(Eigen::Index(t_.number_of_vertices()), number_of_loops_);
+    for(Eigen::Index i = 0; i < number_of_loops_; ++i)
     {
-      entries.emplace_back(int(e), int(e), epsilon);
-      if(t.is_border_edge(e))
-        continue;
-      const Index h = t.edge_halfedge(e), g = t.twin(h);
-      const std::array<Index, 4> side = {{t.edge(t.next(h)), t.edge(t.previous(h)), t.edge(t.next(g)), t.edge(t.previous(g))}};
-      for(std::size_t i = 0; i < 4; ++i)
-        for(std::size_t j = 0; j < 4; ++j)
-          if(side[i] >= side[j]) // both orders of a pair of sides that are one edge count on the diagonal
-            entries.emplace_back(int(side[i]), int(side[j]), (i + j) % 2 == 0 ? 1. : -1.);
+      Vector m = derivatives_of_loop(loops, std::size_t(i));
+      const Vertex_vector y = solution(all_.sums(m));
+      m += transposed_angle_changes(y);
+      const Vertex_vector k = all_.sums(m);
+      for(Index v = 0; v < y.size(); ++v)
+      {
+        fluxes_(v, i) = y[v];
+        scales_(v, i) = is_scaled(v) ? k[v] : 0;
+      }
+      changes_.col(i) = inside_.rest(without_border(changes_with_cross_ratios(t_, -all_.rest(std::move(m)))));
     }
   }
 
-  Eigen::Index edges_, rows_;
-  Matrix matrix_; // the lower half
-  Eigen::SimplicialLDLT<Matrix> factor_;
+  // Only at the border: one vertex inside has no row either where none is free.
+  bool is_scaled(Index v) const { return rows_.row(v) == t_.null_index && t_.is_border_vertex(v) && rows_.is_any_free(); }
+
+  Vector without_border(Vector c) const
+  {
+    for(Index e = 0; e < t_.number_of_edges(); ++e)
+      if(t_.is_border_edge(e))
+        c[e] = 0;
+    return c;
+  }
+
+  // The u for which, with the changes w, angle sums change as is wanted, by row; `scales`: where they are given.
+  Vertex_vector factors_for(const Vector& w, const Vector& wanted, const Vector& scales)
+  {
+    const Vertex_vector given(scales.data(), scales.data() + scales.size());
+    Vertex_vector b = angle_changes(w);
+    const Vertex_vector by_given = laplacian_.graph().product(weights_, given);
+    for(Index v = 0; v < b.size(); ++v)
+      b[v] -= by_given[v] + (rows_.row(v) == t_.null_index ? 0 : wanted[rows_.row(v)]);
+    Vertex_vector u = solution(std::move(b));
+    for(Index v = 0; v < u.size(); ++v)
+      u[v] += given[v];
+    return u;
+  }
+
+  // A^-1 b for the vertices that have rows, 0 at the others.
+  Vertex_vector solution(Vertex_vector b)
+  {
+    const double tolerance = 1e-13;
+    const std::size_t most = 50; // two to four are usual
+    laplacian_.graph().clear_fixed(b);
+    Vertex_vector x;
+    bool is_converged = false;
+    laplacian_.conjugate_gradients(weights_, b, tolerance, most, false, x, is_converged);
+    return x;
+  }
+
+  Vector by_vertex(const Vector& by_row) const
+  {
+    Vector result = Vector::Zero(Eigen::Index(t_.number_of_vertices()));
+    for(Eigen::Index r = 0; r < by_row.size(); ++r)
+      result[rows_.vertex(Index(r))] = by_row[r];
+    return result;
+  }
+
+  const Intrinsic_triangulation<double>& t_;
+  const Turning_rows& rows_;
+  const Corner_angles& corners_;
+  const Eigen::Index number_of_loops_;
+  const Factors_at_vertices inside_, all_;
+  Laplacian_solver laplacian_;
+  std::vector<double> weights_; // by edge: the sum of the cotangents of the angles opposite to it
+  Eigen::MatrixXd changes_;     // by loop, a column: the transpose of N
+  Eigen::MatrixXd scales_;      // by loop: the changes of its turning by those of u where angle sums may be any
+  Eigen::MatrixXd fluxes_;      // by loop: how much less it turns by what angle sums grow
+  Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
 } // namespace internal

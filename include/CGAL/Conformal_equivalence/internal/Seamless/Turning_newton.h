@@ -10,9 +10,9 @@
 // is judged by what it has done to the turnings. So on long thin handles a few steps do what hundreds do not when all equations are
 // judged together.
 //
-// Most of the time goes into the factorization of the equations. But while the angle sums are had by themselves there is one unknown for each
-// loop: how far to go in the direction that turns it. These directions serve for several steps, with derivatives that are corrected by what steps
-// have done (Broyden, "A class of methods for solving nonlinear simultaneous equations", 1965); new ones are found where that is not enough.
+// While the angle sums are had by themselves there is one unknown for each loop: how far to go in the direction that turns it. These directions
+// serve for several steps, with derivatives that are corrected by what steps have done (Broyden, "A class of methods for solving nonlinear simultaneous
+// equations", 1965); new ones are found where that is not enough.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_NEWTON_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_NEWTON_H
@@ -46,7 +46,6 @@ struct Turning_newton_options
   std::size_t maximum_number_of_steps = 200;
   std::size_t maximum_number_of_trials = 1000; // each of which takes about as long as a conformal solve; a good step takes one
   bool may_give_up = false;           // as soon as steps have become so small that another target is the better choice
-  double epsilon = Turning_equations::default_epsilon;
   Any_visitor visitor;                // is told the steps and may stop them
   Factorization_maker make_factorization = [] { return internal::make_factorization<Default_solver_traits>(); };
 };
@@ -123,7 +122,8 @@ private:
         return give_up();
       if(step_in_known_directions() || !bool(metric_))
         continue;
-      Turning_equations equations(metric_.triangulation, metric_.loops, rows_, Corner_angles(metric_.triangulation), epsilon_);
+      const Corner_angles corners(metric_.triangulation);
+      Turning_equations equations(metric_.triangulation, metric_.loops, rows_, corners, options_.make_factorization());
       if(!equations.factorize())
         metric_.status = Status::SINGULAR_PROBLEM;
       else if(!step_in_new_directions(equations) && bool(metric_))
@@ -152,7 +152,7 @@ private:
     return step(metric_.directions * extent, extent, false);
   }
 
-  bool step_in_new_directions(const Turning_equations& equations)
+  bool step_in_new_directions(Turning_equations& equations)
   {
     const Eigen::Index n = number_of_loops(), first = rows_.number_of_vertices(), edges = metric_.triangulation.number_of_edges();
     const double near_enough = 0.3; // radians: from here a step comes so near that these directions serve once more
@@ -192,8 +192,6 @@ private:
       ++metric_.number_of_steps;
       metric_.least_step = (std::min)(metric_.least_step, part);
       metric_.residuals.push_back(largest(residual_));
-      if(part < long_enough)
-        epsilon_ = (std::min)(10 * epsilon_, most_epsilon * options_.epsilon);
       learn(part * extent, before);
       return true;
     }
@@ -262,9 +260,6 @@ private:
     metric_.amount = metric_.residual();
   }
 
-  // Where conformal changes are all but free, they may be so large that nothing is said of them to first order: then they cost up to so much more.
-  static constexpr double most_epsilon = 1e4;
-
   Turning_metric metric_;
   Eigen::VectorXd residual_;
   std::size_t number_of_trials_ = 0;
@@ -272,7 +267,6 @@ private:
   bool are_directions_stale_ = false, is_begun_ = false;
   const Turning_targets targets_;
   const Turning_newton_options options_;
-  double epsilon_;
   Turning_rows rows_;
   Turning_projection projection_;
 };
@@ -280,7 +274,7 @@ private:
 template <typename NT>
 Turning_newton<NT>::Turning_newton(Intrinsic_triangulation<NT> t, Dual_loops loops, Turning_targets targets,
                                    const Turning_newton_options& options, Turning_metric::Directions directions)
-  : targets_(std::move(targets)), options_(options), epsilon_(options.epsilon), rows_(t, targets_.is_free),
+  : targets_(std::move(targets)), options_(options), rows_(t, targets_.is_free),
     projection_(t, targets_, options.tolerance, options.make_factorization, options.visitor)
 {
   metric_.triangulation = std::move(t);
