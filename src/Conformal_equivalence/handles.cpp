@@ -10,7 +10,7 @@ namespace Conformal_equivalence {
 namespace internal {
 
 template Turning_newton<double>::Turning_newton(Intrinsic_triangulation<double>, Dual_loops, Turning_targets, const Turning_newton_options&,
-                                                Turning_metric::Directions);
+                                                std::shared_ptr<Turning_equations>);
 template Turning_metric Turning_newton<double>::run();
 template Handle_turner<double>::Handle_turner(const Intrinsic_triangulation<double>&, const Conformal_metric<double>&,
                                               const Conformal_conditions<double>&, const std::vector<Quantized_cone>&, int,

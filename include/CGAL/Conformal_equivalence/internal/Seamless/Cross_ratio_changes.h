@@ -14,18 +14,19 @@
 // c is a change of cross ratios iff its sum over the edges around each vertex inside the surface vanishes, S c = 0.
 //
 // Both ways are short. With kappa_i = d_jk - d_ij - d_ki for the corner at i of a triangle ijk, c_e is the difference of kappa in the two corners at
-// an end of e: sums around the vertices yield kappa, and d_ij = -(kappa_i + kappa_j) / 2. And S S^T, the signless Laplacian, lies between one half of
-// its diagonal D and 2 D, as x^2 + y^2 + z^2 <= (x + y)^2 + (y + z)^2 + (z + x)^2: conjugate gradients need no factor.
+// an end of e: sums around the vertices yield kappa, and d_ij = -(kappa_i + kappa_j) / 2. And S S^T, the signless Laplacian, lies between one half and
+// two times the degrees of the vertices, as x^2 + y^2 + z^2 <= (x + y)^2 + (y + z)^2 + (z + x)^2: a few iterations invert it, without a factor.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_CROSS_RATIO_CHANGES_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_CROSS_RATIO_CHANGES_H
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
-#include <CGAL/Conformal_equivalence/internal/Solver/Conjugate_gradients.h>
-#include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -89,80 +90,116 @@ class Factors_at_vertices
   typedef std::uint32_t Index;
 
 public:
+  typedef Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> Rows; // by edge or vertex, a row; every column is by itself
   enum class Vertices { ALL, INSIDE };
 
   // Isolated vertices have no factors. \pre every edge is a side of a triangle
-  Factors_at_vertices(const Intrinsic_triangulation<double>& t, Vertices vertices) : diagonal_(t.number_of_vertices(), 0.)
+  Factors_at_vertices(const Intrinsic_triangulation<double>& t, Vertices vertices) : degree_(t.number_of_vertices(), 0.)
   {
-    graph_.set_edges(t);
-    std::vector<char> is_free(t.number_of_vertices(), 0);
-    for(Index v = 0; v < is_free.size(); ++v)
-      is_free[v] = !t.is_isolated_vertex(v) && (vertices == Vertices::ALL || !t.is_border_vertex(v)) ? 1 : 0;
-    graph_.set_free(is_free);
-    for(const auto& e : graph_.ends)
-      for(Index v : {e.first, e.second})
-        diagonal_[v] += e.first == e.second ? 2 : 1;
+    std::vector<char> is_included(t.number_of_vertices(), 0);
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+    {
+      is_included[v] = vertices == Vertices::ALL || !t.is_border_vertex(v) ? 1 : 0;
+      reaches_border_ = reaches_border_ || (is_included[v] && t.is_border_vertex(v));
+    }
+    for(Index e = 0; e < t.number_of_edges(); ++e)
+    {
+      const Index h = t.edge_halfedge(e);
+      ends_.push_back({{t.origin(h), t.target(h)}});
+      for(Index v : ends_.back())
+        degree_[v] += is_included[v];
+    }
   }
 
   // S^T u
-  Eigen::VectorXd changes(const Vertex_vector& u) const
+  Rows changes(const Rows& u) const
   {
-    Eigen::VectorXd d(Eigen::Index(graph_.ends.size()));
-    for(Eigen::Index e = 0; e < d.size(); ++e)
-      d[e] = u[graph_.ends[std::size_t(e)].first] + u[graph_.ends[std::size_t(e)].second];
+    Rows d(Eigen::Index(ends_.size()), u.cols());
+    for(Eigen::Index e = 0; e < d.rows(); ++e)
+      d.row(e) = u.row(ends_[std::size_t(e)][0]) + u.row(ends_[std::size_t(e)][1]);
     return d;
   }
 
   // S d
-  Vertex_vector sums(const Eigen::VectorXd& d) const
+  Rows sums(const Rows& d) const
   {
-    Vertex_vector result(diagonal_.size(), 0.);
-    for(Eigen::Index e = 0; e < d.size(); ++e)
-      for(Index v : {graph_.ends[std::size_t(e)].first, graph_.ends[std::size_t(e)].second})
-        result[v] += d[e];
-    graph_.clear_fixed(result);
+    Rows result = Rows::Zero(Eigen::Index(degree_.size()), d.cols());
+    for(Eigen::Index e = 0; e < d.rows(); ++e)
+      for(Index v : ends_[std::size_t(e)])
+        if(degree_[v] > 0)
+          result.row(v) += d.row(e);
     return result;
   }
 
-  // The u that minimize |d - S^T u|.
-  Vertex_vector nearest(const Eigen::VectorXd& d) const
+  // The u that minimize |d - S^T u|, up to `accuracy` of their size, by the Chebyshev iteration (Golub and Varga, 1961): all that it must be told is
+  // in which interval the eigenvalues of S S^T lie, in units of the degrees. At the border a vertex has a triangle less than edges.
+  Rows nearest(const Rows& d, double accuracy) const
   {
-    const double tolerance = 1e-14;
-    const std::size_t most = 200; // each divides the error by two at least: (sqrt(8) + 1) / (sqrt(8) - 1) at the border, 3 inside
-    Vertex_vector u;
-    bool is_converged = false;
-    System system{*this};
-    Conjugate_gradients().solve(system, sums(d), tolerance, most, false, u, is_converged);
+    const double least = reaches_border_ ? .25 : .5, most = 2, center = (most + least) / 2, radius = (most - least) / 2;
+    const double gain = (std::sqrt(most) + std::sqrt(least)) / (std::sqrt(most) - std::sqrt(least));
+    Rows residual = sums(d), step = over_degrees(residual) / center, u = Rows::Zero(residual.rows(), residual.cols());
+    double rho = radius / center;
+    for(int n = int(std::ceil(std::log(2 / accuracy) / std::log(gain))); n > 0; --n)
+    {
+      u += step;
+      subtract_product(step, residual);
+      const double next = 1 / (2 * center / radius - rho);
+      step = next * rho * step + 2 * next / radius * over_degrees(residual);
+      rho = next;
+    }
     return u;
   }
 
-  // d - S^T u with these, so that S d = 0. Twice, for the digits that rounding takes when d is nearly that of factors.
-  Eigen::VectorXd rest(Eigen::VectorXd d) const
-  {
-    for(int n = 0; n < 2; ++n)
-      d -= changes(nearest(d));
-    return d;
-  }
+  // d - S^T u with these, so that S d = 0.
+  Rows rest(const Rows& d, double accuracy) const { return d - changes(nearest(d, accuracy)); }
 
 private:
-  // S S^T and its diagonal.
-  struct System
+  Rows over_degrees(Rows x) const
   {
-    const Factors_at_vertices& factors;
+    for(Eigen::Index v = 0; v < x.rows(); ++v)
+      x.row(v) /= (std::max)(degree_[std::size_t(v)], 1.);
+    return x;
+  }
 
-    bool precondition(const Vertex_vector& r, Vertex_vector& z) const
+  // y -= S S^T x
+  void subtract_product(const Rows& x, Rows& y) const
+  {
+    for(const auto& e : ends_)
+      for(Index v : e)
+        if(degree_[v] > 0)
+          y.row(v) -= x.row(e[0]) + x.row(e[1]);
+  }
+
+  std::vector<std::array<Index, 2> > ends_; // by edge
+  std::vector<double> degree_;              // by vertex; 0: it has no factor
+  bool reaches_border_ = false;
+};
+
+// Length cross ratios of one metric over those of another one on the same triangulation, and the factors at vertices that come nearest.
+struct Conformal_departure
+{
+  double mean = 0, largest = 0;   // of |log| of the quotients: root of the mean square, and largest
+  std::vector<double> u;          // by vertex: e^{(u_i + u_j) / 2} are, in the mean, the quotients of the lengths
+
+  Conformal_departure(const Intrinsic_triangulation<double>& before, const Intrinsic_triangulation<double>& after)
+  {
+    const double accuracy = 1e-13;
+    Eigen::VectorXd change(Eigen::Index(after.number_of_edges()));
+    std::size_t number_of_ratios = 0;
+    for(std::uint32_t e = 0; e < after.number_of_edges(); ++e)
     {
-      z.resize(r.size());
-      for(std::size_t v = 0; v < r.size(); ++v)
-        z[v] = r[v] == 0 ? 0 : r[v] / factors.diagonal_[v];
-      return true;
+      change[e] = 2 * std::log(after.length(e) / before.length(e));
+      number_of_ratios += after.is_border_edge(e) ? 0 : 1;
     }
-
-    void multiply(const Vertex_vector& x, Vertex_vector& y) const { y = factors.sums(factors.changes(x)); }
-  };
-
-  Edge_graph graph_;
-  Vertex_vector diagonal_; // of S S^T
+    if(number_of_ratios > 0)
+    {
+      const Eigen::VectorXd ratios = cross_ratio_changes(after, change);
+      mean = std::sqrt(ratios.squaredNorm() / double(number_of_ratios));
+      largest = ratios.lpNorm<Eigen::Infinity>();
+    }
+    const Eigen::VectorXd nearest = Factors_at_vertices(after, Factors_at_vertices::Vertices::ALL).nearest(change, accuracy);
+    u.assign(nearest.data(), nearest.data() + nearest.size());
+  }
 };
 
 } // namespace internal

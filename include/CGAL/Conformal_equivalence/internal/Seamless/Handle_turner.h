@@ -24,6 +24,7 @@
 #include <CGAL/Conformal_equivalence/Outcome.h>
 #include <CGAL/Conformal_equivalence/Solver_options.h>
 #include <CGAL/Conformal_equivalence/Status.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Cross_ratio_changes.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Dual_loops.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Quantized_cone.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Seamless_signature.h>
@@ -41,13 +42,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -75,76 +75,10 @@ struct Turned_handles : public Outcome
   double largest_departure = 0;            // the largest one
   double residual = 0;                     // largest difference of a turning from its target (radians)
   Turning_metric start;                    // the metric given, Delaunay; empty if it turns as it should
+  std::shared_ptr<Turning_equations> equations; // there; null: as they were not needed
   Eigen::MatrixXd form;                    // by loop: what it takes, to first order, to turn more
   std::size_t number_of_steps = 0;
   std::size_t number_of_flips = 0;
-};
-
-// Length cross ratios of one metric over those of another one on the same triangulation, and the factors at vertices that come nearest.
-class Conformal_departure
-{
-  typedef std::uint32_t Index;
-  typedef Intrinsic_triangulation<double> Triangulation;
-
-public:
-  double mean = 0, largest = 0;   // of |log| of the quotients: root of the mean square, and largest
-  std::vector<double> u;          // by vertex: e^{(u_i + u_j) / 2} are, in the mean, the quotients of the lengths
-
-  Conformal_departure(const Triangulation& before, const Triangulation& after) : change_(after.number_of_edges())
-  {
-    for(Index e = 0; e < after.number_of_edges(); ++e)
-      change_[e] = 2 * std::log(after.length(e) / before.length(e));
-    compare_cross_ratios(after);
-    fit_factors(after);
-  }
-
-private:
-  void compare_cross_ratios(const Triangulation& t)
-  {
-    double sum = 0;
-    std::size_t number_of_ratios = 0;
-    for(Index e = 0; e < t.number_of_edges(); ++e)
-    {
-      if(t.is_border_edge(e))
-        continue;
-      const Index h = t.edge_halfedge(e), g = t.twin(h);
-      ++number_of_ratios;
-      const double x = (change(t, t.next(h)) - change(t, t.previous(h))) + (change(t, t.next(g)) - change(t, t.previous(g)));
-      sum += x * x;
-      largest = (std::max)(largest, std::abs(x));
-    }
-    mean = number_of_ratios == 0 ? 0 : std::sqrt(sum / double(number_of_ratios));
-  }
-
-  double change(const Triangulation& t, Index h) const { return change_[t.edge(h)]; }
-
-  // By least squares of change - (u_i + u_j) over all edges.
-  void fit_factors(const Triangulation& t)
-  {
-    const double least_diagonal = 1e-9; // where the graph of edges is bipartite the u are not unique
-    const Index n = t.number_of_vertices();
-    std::vector<Eigen::Triplet<double> > entries;
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
-    for(Index v = 0; v < n; ++v)
-      entries.emplace_back(int(v), int(v), least_diagonal);
-    for(Index e = 0; e < t.number_of_edges(); ++e)
-    {
-      const Index h = t.edge_halfedge(e), i = t.origin(h), j = t.target(h);
-      for(Index v : {i, j})
-      {
-        b[v] += change_[e];
-        entries.emplace_back(int(v), int(v), 1.);
-      }
-      entries.emplace_back(int((std::max)(i, j)), int((std::min)(i, j)), i == j ? 2. : 1.);
-    }
-    Eigen::SparseMatrix<double> matrix(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double> > factor(matrix);
-    const Eigen::VectorXd x = factor.info() == Eigen::Success ? Eigen::VectorXd(factor.solve(b)) : Eigen::VectorXd::Zero(n);
-    u.assign(x.data(), x.data() + x.size());
-  }
-
-  std::vector<double> change_; // of 2 log l, by edge
 };
 
 // `NT` is `double`: it is a template so that it can be compiled once (compiled.h).
@@ -274,7 +208,7 @@ private:
       for(Eigen::Index j = 0; j < dimension; ++j)
         basis(i, j) = double(admitted.basis[std::size_t(j)][std::size_t(i)]);
     }
-    result.form = deformation_form(result.start);
+    result.form = deformation_form(result);
     if(result.form.rows() != dimension)
     {
       result.status = Status::SINGULAR_PROBLEM;
@@ -311,19 +245,15 @@ private:
   }
 
   // x^T G x is about what it takes to make the loops turn by x more, in units of the quantum. On a Delaunay triangulation: the sharp angles of
-  // others promise more than they can give. The directions in which that is done are kept there.
-  Eigen::MatrixXd deformation_form(Turning_metric& start) const
+  // others promise more than they can give. The equations are kept: they serve for the first step.
+  Eigen::MatrixXd deformation_form(Turned_handles& handles) const
   {
+    const Turning_metric& start = handles.start;
     const Turning_rows rows(start.triangulation, free_vertices_);
-    const Corner_angles corners(start.triangulation);
-    const Eigen::Index n = Eigen::Index(start.loops.size()), first = rows.number_of_vertices();
-    Turning_equations equations(start.triangulation, start.loops, rows, corners, make_factorization_());
-    if(!equations.factorize())
+    handles.equations = std::make_shared<Turning_equations>(start.triangulation, start.loops, rows, make_factorization_());
+    if(!handles.equations->factorize())
       return Eigen::MatrixXd(0, 0);
-    start.directions.resize(Turning_metric::can_keep_directions(n, start.triangulation) ? start.triangulation.number_of_edges() : 0, n);
-    for(Eigen::Index j = 0; j < n && start.directions.rows() > 0; ++j)
-      start.directions.col(j) = equations.least_change(Eigen::VectorXd::Unit(first + n, first + j));
-    Eigen::MatrixXd result = quantum() * quantum() * equations.form();
+    Eigen::MatrixXd result = quantum() * quantum() * handles.equations->form();
     result.diagonal() *= 2;
     return result;
   }
@@ -413,7 +343,7 @@ private:
     options.maximum_number_of_trials = may_give_up ? soon : 4 * soon;
     options.may_give_up = may_give_up;
     const Turning_metric& start = handles.start;
-    Turning_metric result = Turning_newton<NT>(start.triangulation, start.loops, targets(quanta), options, start.directions).run();
+    Turning_metric result = Turning_newton<NT>(start.triangulation, start.loops, targets(quanta), options, handles.equations).run();
     handles.number_of_steps += result.number_of_steps;
     return result;
   }

@@ -131,22 +131,23 @@ inline Eigen::VectorXd turning_residual(const Intrinsic_triangulation<double>& t
   return result;
 }
 
-// The equations at one metric, linearized. Keeps references to the triangulation, the rows and the angles.
+// The equations at one metric, linearized.
 class Turning_equations
 {
   typedef std::uint32_t Index;
+  typedef Factors_at_vertices::Rows Rows;
 
 public:
   typedef Eigen::VectorXd Vector;
 
-  Turning_equations(const Intrinsic_triangulation<double>& t, const Dual_loops& loops, const Turning_rows& rows, const Corner_angles& corners,
+  Turning_equations(const Intrinsic_triangulation<double>& t, const Dual_loops& loops, const Turning_rows& rows,
                     std::unique_ptr<Factorization> factorization)
-    : t_(t), rows_(rows), corners_(corners), number_of_loops_(Eigen::Index(loops.size())),
+    : t_(t), rows_(rows), corners_(t), number_of_loops_(Eigen::Index(loops.size())),
       inside_(t, Factors_at_vertices::Vertices::INSIDE), all_(t, Factors_at_vertices::Vertices::ALL), laplacian_(std::move(factorization)),
       weights_(t.number_of_edges(), 0.)
   {
     for(Index h = 0; h < t.number_of_halfedges(); ++h)
-      weights_[t.edge(h)] += corners.cotangent[t.previous(h)];
+      weights_[t.edge(h)] += corners_.cotangent[t.previous(h)];
     std::vector<char> is_unknown(t.number_of_vertices(), 0);
     for(Index r = 0; r < rows.number_of_vertices(); ++r)
       is_unknown[rows.vertex(r)] = 1;
@@ -170,7 +171,9 @@ public:
   {
     const Eigen::Index n = rows_.number_of_vertices();
     const Vector mu = factor_.solve(right.tail(number_of_loops_) + fluxes_.transpose() * by_vertex(right.head(n)) + changes_.transpose() * departure);
-    const Vector w = all_.rest(changes_with_cross_ratios(t_, changes_ * mu - departure));
+    Vector w = changes_with_cross_ratios(t_, changes_ * mu - departure);
+    if(rows_.is_any_free())
+      w = all_.rest(w, accuracy); // elsewhere the angle sums tell all factors
     return w + all_.changes(factors_for(w, right.head(n), scales_ * mu));
   }
 
@@ -190,16 +193,16 @@ private:
   }
 
   // By how much the angle sums of all vertices change, to first order.
-  Vertex_vector angle_changes(const Vector& d) const
+  Vector angle_changes(const Vector& d) const
   {
-    Vertex_vector result(t_.number_of_vertices(), 0.);
+    Vector result = Vector::Zero(Eigen::Index(t_.number_of_vertices()));
     for(Index h = 0; h < t_.number_of_halfedges(); ++h)
       for_each_derivative(h, [&](Index e, double derivative) { result[t_.origin(h)] += derivative * d[e]; });
     return result;
   }
 
   // The transpose of that.
-  Vector transposed_angle_changes(const Vertex_vector& y) const
+  Vector transposed_angle_changes(const Vector& y) const
   {
     Vector result = Vector::Zero(Eigen::Index(weights_.size()));
     for(Index h = 0; h < t_.number_of_halfedges(); ++h)
@@ -220,26 +223,33 @@ private:
   // skew-symmetric, n is had from m as changes of lengths are from those of cross ratios.
   void add_loops(const Dual_loops& loops)
   {
+    const Eigen::Index vertices = Eigen::Index(t_.number_of_vertices());
     changes_.resize(Eigen::Index(weights_.size()), number_of_loops_);
-    scales_.resize(Eigen::Index(t_.number_of_vertices()), number_of_loops_);
-    fluxes_.resize(Eigen::Index(t_.number_of_vertices()), number_of_loops_);
+    scales_.setZero(vertices, number_of_loops_);
+    fluxes_.resize(vertices, number_of_loops_);
     for(Eigen::Index i = 0; i < number_of_loops_; ++i)
     {
-      Vector m = derivatives_of_loop(loops, std::size_t(i));
-      const Vertex_vector y = solution(all_.sums(m));
-      m += transposed_angle_changes(y);
-      const Vertex_vector k = all_.sums(m);
-      for(Index v = 0; v < y.size(); ++v)
-      {
-        fluxes_(v, i) = y[v];
-        scales_(v, i) = is_scaled(v) ? k[v] : 0;
-      }
-      changes_.col(i) = inside_.rest(without_border(changes_with_cross_ratios(t_, -all_.rest(std::move(m)))));
+      const Vector a = derivatives_of_loop(loops, std::size_t(i));
+      fluxes_.col(i) = solution(all_.sums(a));
+      changes_.col(i) = a + transposed_angle_changes(fluxes_.col(i));
     }
+    if(rows_.is_any_free())
+    {
+      scales_ = of_border(all_.sums(changes_));
+      changes_ = all_.rest(changes_, accuracy);
+    }
+    for(Eigen::Index i = 0; i < number_of_loops_; ++i)
+      changes_.col(i) = without_border(changes_with_cross_ratios(t_, -changes_.col(i)));
+    changes_ = inside_.rest(changes_, accuracy);
   }
 
-  // Only at the border: one vertex inside has no row either where none is free.
-  bool is_scaled(Index v) const { return rows_.row(v) == t_.null_index && t_.is_border_vertex(v) && rows_.is_any_free(); }
+  Rows of_border(Rows by_vertex) const
+  {
+    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+      if(rows_.row(v) != t_.null_index)
+        by_vertex.row(v).setZero();
+    return by_vertex;
+  }
 
   Vector without_border(Vector c) const
   {
@@ -250,29 +260,22 @@ private:
   }
 
   // The u for which, with the changes w, angle sums change as is wanted, by row; `scales`: where they are given.
-  Vertex_vector factors_for(const Vector& w, const Vector& wanted, const Vector& scales)
+  Vector factors_for(const Vector& w, const Vector& wanted, const Vector& scales)
   {
-    const Vertex_vector given(scales.data(), scales.data() + scales.size());
-    Vertex_vector b = angle_changes(w);
-    const Vertex_vector by_given = laplacian_.graph().product(weights_, given);
-    for(Index v = 0; v < b.size(); ++v)
-      b[v] -= by_given[v] + (rows_.row(v) == t_.null_index ? 0 : wanted[rows_.row(v)]);
-    Vertex_vector u = solution(std::move(b));
-    for(Index v = 0; v < u.size(); ++v)
-      u[v] += given[v];
-    return u;
+    const Vertex_vector by_scales = laplacian_.graph().product(weights_, Vertex_vector(scales.data(), scales.data() + scales.size()));
+    const Vector b = angle_changes(w) - by_vertex(wanted) - Vector::Map(by_scales.data(), scales.size());
+    return solution(b) + scales;
   }
 
   // A^-1 b for the vertices that have rows, 0 at the others.
-  Vertex_vector solution(Vertex_vector b)
+  Vector solution(const Vector& b)
   {
-    const double tolerance = 1e-13;
-    const std::size_t most = 50; // two to four are usual
-    laplacian_.graph().clear_fixed(b);
-    Vertex_vector x;
+    const std::size_t most = 50; // iterations: one to three are usual
+    Vertex_vector right(b.data(), b.data() + b.size()), x;
+    laplacian_.graph().clear_fixed(right);
     bool is_converged = false;
-    laplacian_.conjugate_gradients(weights_, b, tolerance, most, false, x, is_converged);
-    return x;
+    laplacian_.conjugate_gradients(weights_, right, accuracy, most, false, x, is_converged);
+    return Vector::Map(x.data(), b.size());
   }
 
   Vector by_vertex(const Vector& by_row) const
@@ -283,16 +286,19 @@ private:
     return result;
   }
 
-  const Intrinsic_triangulation<double>& t_;
-  const Turning_rows& rows_;
-  const Corner_angles& corners_;
+  // More than that is won by the next step.
+  static constexpr double accuracy = 1e-7;
+
+  const Intrinsic_triangulation<double> t_;
+  const Turning_rows rows_;
+  const Corner_angles corners_;
   const Eigen::Index number_of_loops_;
   const Factors_at_vertices inside_, all_;
   Laplacian_solver laplacian_;
   std::vector<double> weights_; // by edge: the sum of the cotangents of the angles opposite to it
-  Eigen::MatrixXd changes_;     // by loop, a column: the transpose of N
-  Eigen::MatrixXd scales_;      // by loop: the changes of its turning by those of u where angle sums may be any
-  Eigen::MatrixXd fluxes_;      // by loop: how much less it turns by what angle sums grow
+  Rows changes_;                // by loop, a column: the transpose of N
+  Rows scales_;                 // by loop: the changes of its turning by those of u where angle sums may be any
+  Rows fluxes_;                 // by loop: how much less it turns by what angle sums grow
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 

@@ -21,6 +21,7 @@
 #include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Metric_finder.h>
+#include <CGAL/Conformal_equivalence/internal/Seamless/Cross_ratio_changes.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Dual_loops.h>
 #include <CGAL/Conformal_equivalence/internal/Seamless/Turning_equations.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
@@ -29,6 +30,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -54,33 +56,42 @@ struct Turning_metric : public Outcome
   double least_step = 1;              // the least part of a Newton step that was taken
   std::vector<double> residuals;      // largest differences from the targets (radians): before each step, and at the end
 
-  // By edge, a row: changes of 2 log l. Each column makes the angle sums what they are and one loop turn by a radian more, to first order, at the
-  // metric where they were found; none: they have not been. Tangent vectors of the space of metrics, which go through flips as these do.
-  typedef Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> Directions;
-  Directions directions;
-
-  // They are copied for every trial: not where they are more than a hundred megabytes.
-  static bool can_keep_directions(Eigen::Index number_of_loops, const Intrinsic_triangulation<double>& t)
-  {
-    const double most_numbers = 1e7;
-    return double(number_of_loops) * double(t.number_of_edges()) <= most_numbers;
-  }
+  std::vector<double> reference;      // by edge: log l of the metric from which departures are measured; empty: there are none
 
   double residual() const { return residuals.empty() ? 0 : residuals.back(); }
 
-  // The derivative of Ptolemy's f = (a c + b d) / e. (All conformally equivalent lengths have the same quotients a c : b d.) It is called right
-  // before an edge of the triangulation, or of a conformally equivalent one, is flipped.
+  // From here on.
+  void follow_departure()
+  {
+    reference.clear();
+    for(double l : triangulation.lengths())
+      reference.push_back(std::log(l));
+  }
+
+  // By how much the logarithms of the length cross ratios are others than those of the reference.
+  Eigen::VectorXd departure() const
+  {
+    Eigen::VectorXd change(Eigen::Index(reference.size()));
+    for(Index e = 0; e < reference.size(); ++e)
+      change[e] = 2 * (std::log(triangulation.length(e)) - reference[e]);
+    return cross_ratio_changes(triangulation, change);
+  }
+
+  // It is called right before an edge of the triangulation, or of a conformally equivalent one, is flipped.
   void carry_through_flip(Index e)
   {
     loops.flip(triangulation, e);
     flips.push_back(e);
-    if(directions.size() == 0)
-      return;
-    const std::array<Index, 5> x = quad_edges(triangulation, e);
-    const auto log_length = [&](std::size_t i) { return std::log(triangulation.length(x[i])); };
-    const double part = 1 / (1 + std::exp((log_length(2) - log_length(1)) + (log_length(4) - log_length(3))));
-    directions.row(e) = (part * (directions.row(x[1]) + directions.row(x[3])) + (1 - part) * (directions.row(x[2]) + directions.row(x[4]))
-                         - directions.row(e)).eval();
+    if(!reference.empty())
+      reference[e] = log_ptolemy_length(quad_edges(triangulation, e));
+  }
+
+private:
+  // log((a c + b d) / e) of the reference
+  double log_ptolemy_length(const std::array<Index, 5>& x) const
+  {
+    const double one = reference[x[1]] + reference[x[3]], other = reference[x[2]] + reference[x[4]];
+    return (std::max)(one, other) + std::log1p(std::exp(-std::abs(one - other))) - reference[x[0]];
   }
 };
 
@@ -155,11 +166,12 @@ public:
     return is_done;
   }
 
-  // To the angle sums, in the conformal class. Returns `false` if they cannot be found, or if it was stopped.
-  bool make_conformal(Turning_metric& metric) const
+  // To the angle sums, in the conformal class, up to `tolerance` (radians). Returns `false` if they cannot be found, or if it was stopped.
+  bool make_conformal(Turning_metric& metric, double tolerance) const
   {
-    const Conformal_metric<double> found =
-      metric_with_triangulation(metric.triangulation, conditions_, options_, make_factorization_());
+    Solver_options options = options_;
+    options.gradient_tolerance = (std::max)(options_.gradient_tolerance, tolerance);
+    const Conformal_metric<double> found = metric_with_triangulation(metric.triangulation, conditions_, options, make_factorization_());
     if(found.status == Status::STOPPED_BY_VISITOR)
       metric.status = found.status;
     if(!is_success(found.status) && !is_near(found))

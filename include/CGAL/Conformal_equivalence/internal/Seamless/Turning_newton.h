@@ -10,9 +10,9 @@
 // is judged by what it has done to the turnings. So on long thin handles a few steps do what hundreds do not when all equations are
 // judged together.
 //
-// While the angle sums are had by themselves there is one unknown for each loop: how far to go in the direction that turns it. These directions
-// serve for several steps, with derivatives that are corrected by what steps have done (Broyden, "A class of methods for solving nonlinear simultaneous
-// equations", 1965); new ones are found where that is not enough.
+// Most of the time goes into the linearized equations, which have a solution for each loop: they serve for further steps as long as these bring enough
+// and no edge is flipped. As long as the turnings are far from their targets, a step also leads back towards the conformal class given: so what
+// has been done to it in all, along a way that bends, is close to the least.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_NEWTON_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_NEWTON_H
@@ -28,12 +28,12 @@
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 namespace CGAL {
@@ -57,9 +57,9 @@ class Turning_newton
   typedef std::uint32_t Index;
 
 public:
-  // `directions`: as in a `Turning_metric`, if they are known. \pre the triangulation is connected, and its lengths are positive
+  // `equations`: those at the metric given, if they are there, factorized. \pre the triangulation is connected, and its lengths are positive
   Turning_newton(Intrinsic_triangulation<NT> t, Dual_loops loops, Turning_targets targets, const Turning_newton_options& options,
-                 Turning_metric::Directions directions = Turning_metric::Directions());
+                 std::shared_ptr<Turning_equations> equations = nullptr);
 
   Turning_metric run();
 
@@ -87,13 +87,14 @@ private:
     if(!is_valid || angle_residual(residual_) > options_.tolerance)
     {
       Turning_metric conformal = metric_;
-      if(projection_.make_conformal(conformal))
+      if(projection_.make_conformal(conformal, options_.tolerance))
         metric_ = std::move(conformal);
       else if(!bool(conformal))
         metric_.status = conformal.status;
       measure(metric_, residual_, is_valid);
     }
     metric_.residuals.push_back(largest(residual_));
+    metric_.follow_departure();
   }
 
   void measure(const Turning_metric& metric, Eigen::VectorXd& residual, bool& is_valid) const
@@ -120,51 +121,35 @@ private:
       }
       if(metric_.number_of_steps == options_.maximum_number_of_steps || has_no_trials_left() || is_slow())
         return give_up();
-      if(step_in_known_directions() || !bool(metric_))
-        continue;
-      const Corner_angles corners(metric_.triangulation);
-      Turning_equations equations(metric_.triangulation, metric_.loops, rows_, corners, options_.make_factorization());
-      if(!equations.factorize())
-        metric_.status = Status::SINGULAR_PROBLEM;
-      else if(!step_in_new_directions(equations) && bool(metric_))
+      if(!step() && bool(metric_))
         return give_up();
     }
   }
 
   bool has_no_trials_left() const { return number_of_trials_ >= options_.maximum_number_of_trials; }
 
-  // Steps so long decide by how much the conformal class is left: for these it pays to find the best directions anew.
+  // Steps so long decide by how much the conformal class is left.
   bool is_far_away() const
   {
-    const double far_away = 0.02; // radians
+    const double far_away = 0.1; // radians
     return residual_.norm() > far_away;
   }
 
   Eigen::Index number_of_loops() const { return residual_.size() - rows_.number_of_vertices(); }
 
-  bool step_in_known_directions()
+  // In the equations that are there, if they serve still, else in new ones. \return `false` if there is none, or if it was stopped
+  bool step()
   {
-    if(are_directions_stale_ || metric_.directions.size() == 0)
-      return false;
-    if(jacobian_.size() == 0)
-      jacobian_.setIdentity(number_of_loops(), number_of_loops());
-    const Eigen::VectorXd extent = -jacobian_.partialPivLu().solve(residual_.tail(number_of_loops()));
-    return step(metric_.directions * extent, extent, false);
-  }
-
-  bool step_in_new_directions(Turning_equations& equations)
-  {
-    const Eigen::Index n = number_of_loops(), first = rows_.number_of_vertices(), edges = metric_.triangulation.number_of_edges();
-    const double near_enough = 0.3; // radians: from here a step comes so near that these directions serve once more
-    metric_.directions.resize(0, 0);
-    if(n > 0 && residual_.norm() < near_enough && Turning_metric::can_keep_directions(n, metric_.triangulation))
-    {
-      metric_.directions.resize(edges, n);
-      for(Eigen::Index j = 0; j < n; ++j)
-        metric_.directions.col(j) = equations.least_change(Eigen::VectorXd::Unit(first + n, first + j));
-      jacobian_.setIdentity(n, n);
-    }
-    return step(equations.least_change(-residual_), -residual_.tail(n), true);
+    if(equations_ && flips_of_equations_ == metric_.flips.size() && (step_along(equations_->least_change(-residual_), true) || !bool(metric_)))
+      return bool(metric_);
+    equations_ = std::make_shared<Turning_equations>(metric_.triangulation, metric_.loops, rows_, options_.make_factorization());
+    flips_of_equations_ = metric_.flips.size();
+    if(!equations_->factorize())
+      metric_.status = Status::SINGULAR_PROBLEM;
+    if(bool(metric_) && is_far_away()
+       && (step_along(equations_->change_to_departure(-residual_, metric_.departure()), true) || !bool(metric_)))
+      return bool(metric_);
+    return bool(metric_) && step_along(equations_->least_change(-residual_), false);
   }
 
   // Whether it takes too long, if that matters: in some steps the residual should have become a half at least.
@@ -174,52 +159,44 @@ private:
     return options_.may_give_up && n > some && metric_.residuals[n - 1] > metric_.residuals[n - 1 - some] / 2;
   }
 
-  // As far along the way as reduces the residual. `extent`: how far that is in the directions; `is_complete`: the change is one for the angle sums,
-  // too. \return `false` if there is no such step, or if it was stopped
-  bool step(const Eigen::VectorXd& change, const Eigen::VectorXd& extent, bool is_complete)
+  // As far along the way as reduces the residual; `is_trial`: all the way, and well, or not at all, as there is another one. \return `false` if
+  // there is no such step, or if it was stopped
+  bool step_along(const Eigen::VectorXd& change, bool is_trial)
   {
-    const double farthest = 20;      // of a logarithm of a squared length in one step: beyond, there is nothing but flips
-    const double long_enough = 0.2;  // shorter parts tell that the way is not straight
-    const double least = is_complete ? 1e-5 : long_enough; // below this part of a step nothing is won but time lost
-    const double size = largest(change);
+    const double farthest = 20;  // of a logarithm of a squared length in one step: beyond, there is nothing but flips
+    const double least = 1e-5;   // below this part of a step nothing is won but time lost
+    const double well = 0.3;     // of the residual is to be left at most; or other equations do better
+    const double size = largest(change), before = residual_.norm(), longest = (std::min)(1., farthest / size);
     if(!std::isfinite(size))
       return false;
-    const Eigen::VectorXd before = residual_;
-    for(double part = (std::min)(1., farthest / size); part >= least && bool(metric_) && !has_no_trials_left(); part /= 2)
+    for(double part = longest; part >= (is_trial ? 1. : least) && bool(metric_) && !has_no_trials_left(); part /= 2)
     {
-      if(!try_step(part, change, is_complete))
+      if(!try_step(part, change, is_trial ? well : 1 - 1e-4 * part))
         continue;
       ++metric_.number_of_steps;
       metric_.least_step = (std::min)(metric_.least_step, part);
       metric_.residuals.push_back(largest(residual_));
-      learn(part * extent, before);
+      if(getenv("TR")) fprintf(stderr, "  %s part %g size %g residual %g -> angle %g turning %g\n", is_trial ? "known" : "new", part, size, before, angle_residual(residual_), residual_.tail(number_of_loops()).norm()); // DEBUG
+      if(residual_.norm() > well * before)
+        equations_.reset();
       return true;
     }
     return false;
   }
 
-  // Corrects the derivatives, or says that the directions have done what they could.
-  void learn(const Eigen::VectorXd& extent, const Eigen::VectorXd& before)
+  // The step as it is if it does what it should, else with the angle sums had again, if that leaves no more than `most` of the residual.
+  bool try_step(double part, const Eigen::VectorXd& change, double most)
   {
-    const double enough = 0.3; // of the residual, at most, is to be left by a step
-    are_directions_stale_ = is_far_away() || residual_.norm() > enough * before.norm();
-    if(jacobian_.size() != 0 && extent.squaredNorm() > 0)
-    {
-      const Eigen::VectorXd turned = residual_.tail(number_of_loops()) - before.tail(number_of_loops());
-      jacobian_ += (turned - jacobian_ * extent) * extent.transpose() / extent.squaredNorm();
-    }
-  }
-
-  // The step as it is if it is the last one, else with angle sums had again, as steps in known directions take for granted.
-  bool try_step(double part, const Eigen::VectorXd& change, bool is_complete)
-  {
+    const double little = 0.1;          // of the residual: nothing has to be done about what is left
+    const double part_of_angles = 1e-5; // of it at most, when they are had again
     ++number_of_trials_;
+    const double before = residual_.norm();
     Turning_metric trial = metric_;
     if(stretch(trial.triangulation, part * change) && projection_.make_delaunay(trial))
     {
-      if(is_complete && take_if_below(options_.tolerance, trial))
+      if(take_if_below((std::max)(options_.tolerance, little * before), trial))
         return true;
-      if(projection_.make_conformal(trial) && take_if_below((1 - 1e-4 * part) * residual_.norm(), trial))
+      if(projection_.make_conformal(trial, part_of_angles * before) && take_if_below(most * before, trial))
         return true;
     }
     if(trial.status == Status::STOPPED_BY_VISITOR)
@@ -263,8 +240,9 @@ private:
   Turning_metric metric_;
   Eigen::VectorXd residual_;
   std::size_t number_of_trials_ = 0;
-  Eigen::MatrixXd jacobian_; // of the turnings, for steps in the directions; empty: as these were made for
-  bool are_directions_stale_ = false, is_begun_ = false;
+  bool is_begun_ = false;
+  std::shared_ptr<Turning_equations> equations_; // at some metric before
+  std::size_t flips_of_equations_ = 0;           // how many there were then: they are those of a triangulation
   const Turning_targets targets_;
   const Turning_newton_options options_;
   Turning_rows rows_;
@@ -273,13 +251,12 @@ private:
 
 template <typename NT>
 Turning_newton<NT>::Turning_newton(Intrinsic_triangulation<NT> t, Dual_loops loops, Turning_targets targets,
-                                   const Turning_newton_options& options, Turning_metric::Directions directions)
-  : targets_(std::move(targets)), options_(options), rows_(t, targets_.is_free),
+                                   const Turning_newton_options& options, std::shared_ptr<Turning_equations> equations)
+  : equations_(std::move(equations)), targets_(std::move(targets)), options_(options), rows_(t, targets_.is_free),
     projection_(t, targets_, options.tolerance, options.make_factorization, options.visitor)
 {
   metric_.triangulation = std::move(t);
   metric_.loops = std::move(loops);
-  metric_.directions = std::move(directions);
 }
 
 template <typename NT>
@@ -291,7 +268,7 @@ Turning_metric Turning_newton<NT>::run()
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_COMPILED // see compiled.h
 extern template Turning_newton<double>::Turning_newton(Intrinsic_triangulation<double>, Dual_loops, Turning_targets,
-                                                       const Turning_newton_options&, Turning_metric::Directions);
+                                                       const Turning_newton_options&, std::shared_ptr<Turning_equations>);
 extern template Turning_metric Turning_newton<double>::run();
 #endif
 
