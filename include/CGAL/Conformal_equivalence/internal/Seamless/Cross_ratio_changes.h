@@ -175,20 +175,21 @@ private:
   bool reaches_border_ = false;
 };
 
-// Length cross ratios of one metric over those of another one on the same triangulation, and the factors at vertices that come nearest.
+// Length cross ratios of one metric over those of another one on the same triangulation, of which the logarithms of the lengths are given, and the
+// factors at vertices that come nearest.
 struct Conformal_departure
 {
   double mean = 0, largest = 0;   // of |log| of the quotients: root of the mean square, and largest
   std::vector<double> u;          // by vertex: e^{(u_i + u_j) / 2} are, in the mean, the quotients of the lengths
 
-  Conformal_departure(const Intrinsic_triangulation<double>& before, const Intrinsic_triangulation<double>& after)
+  Conformal_departure(const std::vector<double>& before, const Intrinsic_triangulation<double>& after)
   {
     const double accuracy = 1e-13;
     Eigen::VectorXd change(Eigen::Index(after.number_of_edges()));
     std::size_t number_of_ratios = 0;
     for(std::uint32_t e = 0; e < after.number_of_edges(); ++e)
     {
-      change[e] = 2 * std::log(after.length(e) / before.length(e));
+      change[e] = 2 * (std::log(after.length(e)) - before[e]);
       number_of_ratios += after.is_border_edge(e) ? 0 : 1;
     }
     if(number_of_ratios > 0)

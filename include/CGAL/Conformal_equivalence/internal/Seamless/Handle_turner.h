@@ -368,12 +368,16 @@ private:
     return result;
   }
 
-  // The lengths that Ptolemy's theorem gives after flips.
-  Triangulation flipped(const std::vector<Index>& flips) const
+  // The logarithms of the lengths that Ptolemy's theorem gives after flips, as the lengths themselves may leave the range of numbers.
+  std::vector<double> flipped_logarithms(const std::vector<Index>& flips) const
   {
-    Triangulation result = t_;
+    Triangulation t = t_;
+    std::vector<double> result = logarithms(t.lengths());
     for(Index e : flips)
-      result.flip_edge(e, ptolemy_length(result, e));
+    {
+      result[e] = log_ptolemy_length(result, quad_edges(t, e));
+      t.flip_edge(e, t.length(e));
+    }
     return result;
   }
 
@@ -390,6 +394,10 @@ private:
       const Index h = found.edge_halfedge(e);
       lengths.push_back(found.length(e) * std::exp(-(u[found.origin(h)] + u[found.target(h)]) / 2));
     }
+    Metric unknown;
+    unknown.status = Status::SCALE_OUT_OF_RANGE;
+    if(!std::all_of(lengths.begin(), lengths.end(), [](const NT& l) { return l > 0 && std::isfinite(l); }))
+      return unknown;
     Solver_options options = options_;
     options.retriangulation = Retriangulation::WHEN_NEEDED;
     options.initial_log_scale_factors = u;
@@ -483,7 +491,7 @@ Conformal_metric<NT> Handle_turner<NT>::turn(Turned_handles& handles) const
   handles.number_of_flips = found.flips.size();
   std::vector<Index> flips = metric_.flips;
   flips.insert(flips.end(), found.flips.begin(), found.flips.end());
-  const Conformal_departure departure(flipped(flips), found.triangulation);
+  const Conformal_departure departure(flipped_logarithms(flips), found.triangulation);
   handles.mean_departure = departure.mean;
   handles.largest_departure = departure.largest;
   result = with_factors(found.triangulation, departure.u);

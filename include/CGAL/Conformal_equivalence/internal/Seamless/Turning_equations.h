@@ -287,7 +287,7 @@ private:
   }
 
   // More than that is won by the next step.
-  static constexpr double accuracy = 1e-7;
+  static constexpr double accuracy = 1e-11;
 
   const Intrinsic_triangulation<double> t_;
   const Turning_rows rows_;

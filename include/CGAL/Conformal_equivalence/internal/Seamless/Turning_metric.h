@@ -43,6 +43,22 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// By edge, of lengths.
+inline std::vector<double> logarithms(const std::vector<double>& lengths)
+{
+  std::vector<double> result;
+  for(double l : lengths)
+    result.push_back(std::log(l));
+  return result;
+}
+
+// log((a c + b d) / e), by the logarithms of all lengths and the edges of the quadrilateral.
+inline double log_ptolemy_length(const std::vector<double>& logarithm, const std::array<std::uint32_t, 5>& x)
+{
+  const double one = logarithm[x[1]] + logarithm[x[3]], other = logarithm[x[2]] + logarithm[x[4]];
+  return (std::max)(one, other) + std::log1p(std::exp(-std::abs(one - other))) - logarithm[x[0]];
+}
+
 // A metric whose triangulation is on its way, with the loops on it. The status is `OK`, `CONVERGED_TO_ROUNDING`, `ITERATIONS_EXHAUSTED`,
 // `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`.
 struct Turning_metric : public Outcome
@@ -63,9 +79,7 @@ struct Turning_metric : public Outcome
   // From here on.
   void follow_departure()
   {
-    reference.clear();
-    for(double l : triangulation.lengths())
-      reference.push_back(std::log(l));
+    reference = logarithms(triangulation.lengths());
   }
 
   // By how much the logarithms of the length cross ratios are others than those of the reference.
@@ -83,15 +97,7 @@ struct Turning_metric : public Outcome
     loops.flip(triangulation, e);
     flips.push_back(e);
     if(!reference.empty())
-      reference[e] = log_ptolemy_length(quad_edges(triangulation, e));
-  }
-
-private:
-  // log((a c + b d) / e) of the reference
-  double log_ptolemy_length(const std::array<Index, 5>& x) const
-  {
-    const double one = reference[x[1]] + reference[x[3]], other = reference[x[2]] + reference[x[4]];
-    return (std::max)(one, other) + std::log1p(std::exp(-std::abs(one - other))) - reference[x[0]];
+      reference[e] = log_ptolemy_length(reference, quad_edges(triangulation, e));
   }
 };
 

@@ -142,14 +142,19 @@ private:
   {
     if(equations_ && flips_of_equations_ == metric_.flips.size() && (step_along(equations_->least_change(-residual_), true) || !bool(metric_)))
       return bool(metric_);
-    equations_ = std::make_shared<Turning_equations>(metric_.triangulation, metric_.loops, rows_, options_.make_factorization());
-    flips_of_equations_ = metric_.flips.size();
-    if(!equations_->factorize())
+    if(!linearize())
       metric_.status = Status::SINGULAR_PROBLEM;
     if(bool(metric_) && is_far_away()
        && (step_along(equations_->change_to_departure(-residual_, metric_.departure()), true) || !bool(metric_)))
       return bool(metric_);
     return bool(metric_) && step_along(equations_->least_change(-residual_), false);
+  }
+
+  bool linearize()
+  {
+    equations_ = std::make_shared<Turning_equations>(metric_.triangulation, metric_.loops, rows_, options_.make_factorization());
+    flips_of_equations_ = metric_.flips.size();
+    return equations_->factorize();
   }
 
   // Whether it takes too long, if that matters: in some steps the residual should have become a half at least.
@@ -179,7 +184,35 @@ private:
       if(getenv("TR")) fprintf(stderr, "  %s part %g size %g residual %g -> angle %g turning %g\n", is_trial ? "known" : "new", part, size, before, angle_residual(residual_), residual_.tail(number_of_loops()).norm()); // DEBUG
       if(residual_.norm() > well * before)
         equations_.reset();
+      if(part < 1)
+        return_towards_class();
       return true;
+    }
+    return false;
+  }
+
+  // Where only parts of steps can be taken the way bends, and what is done to the conformal class grows beyond what it takes, until there is no
+  // way from there: so it is undone, as far as the turnings are kept.
+  void return_towards_class()
+  {
+    const std::size_t most = 3; // changes, of which the first does most
+    for(std::size_t n = 0; n < most && bool(metric_) && !has_no_trials_left(); ++n)
+      if(!linearize() || !return_along(equations_->change_to_departure(Eigen::VectorXd::Zero(residual_.size()), metric_.departure())))
+        return;
+    equations_.reset();
+  }
+
+  // \return `false` if nothing is won
+  bool return_along(const Eigen::VectorXd& change)
+  {
+    const double least = 0.1, little_more = 1.02, less = 0.95;
+    for(double part = 1; part >= least && bool(metric_) && !has_no_trials_left(); part /= 2)
+    {
+      ++number_of_trials_;
+      Turning_metric trial = metric_;
+      if(change_lengths(trial, part * change) && restore_angles(trial) && trial.departure().norm() < less * metric_.departure().norm()
+         && take_if_below(little_more * residual_.norm(), trial))
+        return true;
     }
     return false;
   }
@@ -188,20 +221,32 @@ private:
   bool try_step(double part, const Eigen::VectorXd& change, double most)
   {
     const double little = 0.1;          // of the residual: nothing has to be done about what is left
-    const double part_of_angles = 1e-5; // of it at most, when they are had again
     ++number_of_trials_;
     const double before = residual_.norm();
     Turning_metric trial = metric_;
-    if(stretch(trial.triangulation, part * change) && projection_.make_delaunay(trial))
-    {
-      if(take_if_below((std::max)(options_.tolerance, little * before), trial))
-        return true;
-      if(projection_.make_conformal(trial, part_of_angles * before) && take_if_below(most * before, trial))
-        return true;
-    }
+    if(!change_lengths(trial, part * change))
+      return false;
+    return take_if_below((std::max)(options_.tolerance, little * before), trial)
+        || (restore_angles(trial) && take_if_below(most * before, trial));
+  }
+
+  // \return `false` if it cannot be done, or is stopped
+  bool change_lengths(Turning_metric& trial, const Eigen::VectorXd& change)
+  {
+    return note_stop(trial, stretch(trial.triangulation, change) && projection_.make_delaunay(trial));
+  }
+
+  bool restore_angles(Turning_metric& trial)
+  {
+    const double part = 1e-5; // of the residual, at most, is left of them
+    return note_stop(trial, projection_.make_conformal(trial, part * residual_.norm()));
+  }
+
+  bool note_stop(const Turning_metric& trial, bool is_done)
+  {
     if(trial.status == Status::STOPPED_BY_VISITOR)
       metric_.status = trial.status;
-    return false;
+    return is_done;
   }
 
   bool take_if_below(double most, Turning_metric& trial)
