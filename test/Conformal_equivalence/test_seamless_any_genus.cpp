@@ -546,6 +546,28 @@ BOOST_AUTO_TEST_CASE(handles_turn_in_a_few_steps)
   }
 }
 
+// A tube around which everything turns by a right angle more is a cone, whose ends differ by a large factor.
+BOOST_AUTO_TEST_CASE(thin_tubes_turn_by_right_angles)
+{
+  const Coned c = placed(CE::import_mesh(read_mesh("pipe.off")).triangulation);
+  const std::vector<Prescribed_turning> none;
+  const Handle_turner turner(c.t, c.metric, c.conditions, c.cones, 4, none, CE::Solver_options());
+  const CE::internal::Turned_handles chosen = turner.choose();
+  BOOST_TEST_REQUIRE(bool(chosen));
+  const std::vector<std::array<long, 2> > turns = {{{1, 0}}, {{0, 1}}, {{-1, 0}}, {{0, -1}}};
+  for(const auto& turn : cases(turns))
+  {
+    CE::internal::Turned_handles handles = chosen;
+    handles.others.clear();
+    for(std::size_t k = 0; k < 2; ++k)
+      handles.quanta[k] += turn[k];
+    const auto metric = turner.turn(handles);
+    BOOST_TEST_REQUIRE(bool(metric), turn[0] << " and " << turn[1] << ": " << CE::message(metric.status));
+    BOOST_TEST(handles.residual <= 1e-9); // of lengths that are rounded, of triangles that may be sharp
+    BOOST_TEST(handles.mean_departure > 0);
+  }
+}
+
 // ---- What exists
 
 BOOST_AUTO_TEST_CASE(existence_is_decided_first)
