@@ -119,7 +119,7 @@ private:
         metric_.status = Status::STOPPED_BY_VISITOR;
         return;
       }
-      if(metric_.number_of_steps == options_.maximum_number_of_steps || has_no_trials_left() || is_slow())
+      if(metric_.number_of_steps == options_.maximum_number_of_steps || has_no_trials_left() || is_slow() || is_rounded())
         return give_up();
       if(!step() && bool(metric_))
         return give_up();
@@ -164,6 +164,13 @@ private:
     return options_.may_give_up && n > some && metric_.residuals[n - 1] > metric_.residuals[n - 1 - some] / 2;
   }
 
+  // Newton's method would make more of such a residual, if it were not for rounding.
+  bool is_rounded() const
+  {
+    const std::size_t n = metric_.residuals.size();
+    return n > 1 && metric_.residuals[n - 1] < roundings && metric_.residuals[n - 1] > metric_.residuals[n - 2] / 2;
+  }
+
   // As far along the way as reduces the residual; `is_trial`: all the way, and well, or not at all, as there is another one. \return `false` if
   // there is no such step, or if it was stopped
   bool step_along(const Eigen::VectorXd& change, bool is_trial)
@@ -181,7 +188,6 @@ private:
       ++metric_.number_of_steps;
       metric_.least_step = (std::min)(metric_.least_step, part);
       metric_.residuals.push_back(largest(residual_));
-      if(getenv("TR")) fprintf(stderr, "  %s part %g size %g residual %g -> angle %g turning %g\n", is_trial ? "known" : "new", part, size, before, angle_residual(residual_), residual_.tail(number_of_loops()).norm()); // DEBUG
       if(residual_.norm() > well * before)
         equations_.reset();
       if(part < 1)
@@ -277,10 +283,12 @@ private:
   // Rounding may have made further steps impossible: then the metric found is as good as it gets.
   void give_up()
   {
-    const double roundings = 1e-9; // far more than rounding leaves of a residual, far less than Newton's method would stop at otherwise
     metric_.status = metric_.residual() < roundings ? Status::CONVERGED_TO_ROUNDING : Status::ITERATIONS_EXHAUSTED;
     metric_.amount = metric_.residual();
   }
+
+  // Far more than rounding leaves of a residual (radians), far less than the method would stop at otherwise.
+  static constexpr double roundings = 1e-9;
 
   Turning_metric metric_;
   Eigen::VectorXd residual_;
