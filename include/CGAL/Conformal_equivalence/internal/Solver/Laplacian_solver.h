@@ -27,7 +27,7 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The lower half of A plus a diagonal, by columns, in the order of the free vertices.
+// The lower half of A plus a diagonal, if that is not empty, by columns, in the order of the free vertices.
 inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const std::vector<double>& w,
                                                   const Vertex_vector& shift)
 {
@@ -63,7 +63,7 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
     {
       const int c = int(graph.free_index[v]);
       rows[free_place[c]] = c;
-      values[free_place[c]++] = d[v] + shift[v];
+      values[free_place[c]++] = d[v] + (shift.empty() ? 0 : shift[v]);
     }
   for(std::size_t e = 0; e < graph.ends.size(); ++e)
     if(entry(e, row, column))
@@ -185,19 +185,20 @@ public:
     std::size_t rows = 0;
     Vertex_vector shift = regularization(graph_, w, rows);
     number_of_regularized_rows_ = (std::max)(number_of_regularized_rows_, rows);
-    const Vertex_vector diagonal = graph_.diagonal(w);
     for(double relative = 1e-10; relative < 1; relative *= 100)
     {
       ++number_of_factorizations_;
       if(factor_->factor(assemble_lower(graph_, w, shift)))
         return has_factor_ = true;
+      const Vertex_vector diagonal = graph_.diagonal(w);
+      shift.resize(diagonal.size(), 0.);
       for(std::size_t v = 0; v < shift.size(); ++v)
         shift[v] += relative * (std::max)(diagonal[v], 0.);
     }
     ++number_of_factorizations_;
     const std::vector<double> tame_weights = tame(w);
     return has_factor_ = factor_->factor(assemble_lower(
-      graph_, tame_weights, graph_.held.empty() ? Vertex_vector(shift.size(), 0.) : regularization(graph_, tame_weights, rows)));
+      graph_, tame_weights, graph_.held.empty() ? Vertex_vector() : regularization(graph_, tame_weights, rows)));
   }
 
   // x = A^-1 b with the matrix last factorized

@@ -200,11 +200,10 @@ public:
     std::size_t update_size() const { return std::size_t(number_of_rows) * std::size_t(number_of_rows); }
   };
 
-  // An entry of the matrix, and its place in L.
+  // An entry of the matrix, and the row of the front that it is in.
   struct Entry
   {
-    std::size_t place;
-    int source;
+    int row, source;
   };
 
   // Problems of at least `least_size_of_groups` unknowns are divided into groups.
@@ -232,8 +231,8 @@ public:
   std::vector<Supernode> supernodes;       // in postorder
   std::vector<int> rows;                   // of the fronts below the columns, ascending
   std::vector<int> rows_in_parent;         // the same, as rows of the parent's front
-  std::vector<Entry> entries;              // by supernode
-  std::vector<std::size_t> first_entry;    // by supernode, and the end
+  std::vector<Entry> entries;              // by column
+  std::vector<int> first_entry;            // by column, and the end
   std::size_t number_of_values = 0;        // of L, with the zeros
   int largest_front = 0;
 
@@ -302,6 +301,7 @@ private:
   {
     std::vector<Columns> columns = fundamental_supernodes(parent, count);
     std::vector<int> of_column(parent.size()), merged_into(columns.size());
+    std::size_t number_of_rows = 0;
     for(int s = 0; s < int(columns.size()); ++s)
     {
       merged_into[s] = s;
@@ -322,7 +322,10 @@ private:
         supernodes.emplace_back();
         supernodes.back().first_column = columns[s].first;
         supernodes.back().number_of_columns = columns[s].number;
+        number_of_rows += std::size_t(columns[s].count - columns[s].number);
       }
+    rows.reserve(number_of_rows);
+    rows_in_parent.reserve(number_of_rows);
   }
 
   // The rows of every front, and where the entries of the matrix and the rows of its children are in it.
@@ -333,6 +336,7 @@ private:
       std::fill_n(supernode_of.begin() + supernodes[s].first_column, supernodes[s].number_of_columns, s);
     std::vector<int> seen_by(unknowns.size(), none);
     entries.reserve(a.row.size());
+    first_entry.reserve(unknowns.size() + 1);
     first_entry.assign(1, 0);
     for(int s = 0; s < int(supernodes.size()); ++s)
     {
@@ -350,13 +354,12 @@ private:
       largest_front = (std::max)(largest_front, node.front_size());
       for(int j = node.first_column; j < node.end_column(); ++j)
       {
-        const std::size_t column = node.panel + std::size_t(place[j]) * node.front_size();
         if(diagonal[unknowns[j]] != none)
-          entries.push_back({column + place[j], diagonal[unknowns[j]]});
+          entries.push_back({place[j], diagonal[unknowns[j]]});
         for(int k = by_columns.first[j]; k < by_columns.first[j + 1]; ++k)
-          entries.push_back({column + place[by_columns.index[k]], by_columns.source[k]});
+          entries.push_back({place[by_columns.index[k]], by_columns.source[k]});
+        first_entry.push_back(int(entries.size()));
       }
-      first_entry.push_back(entries.size());
       if(node.number_of_rows > 0)
       {
         node.parent = supernode_of[rows[node.first_row]];
@@ -495,8 +498,6 @@ private:
     for(std::size_t s = 0; s < supernodes.size(); ++s)
     {
       supernodes[s].panel += shift;
-      for(std::size_t k = first_entry[s]; k < first_entry[s + 1]; ++k)
-        entries[k].place += shift;
       if(is_last[s])
         shift += gap;
     }
