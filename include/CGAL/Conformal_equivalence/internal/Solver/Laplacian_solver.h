@@ -9,6 +9,7 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Conjugate_gradients.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
@@ -103,20 +104,27 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
 // At free vertices that are not held x is what `replace` makes of the entries of b, by free vertex, of which it returns whether it could; elsewhere
 // 0. `free` is room for these.
 template <typename Function>
-bool replace_free_entries(const Edge_graph& graph, const Vertex_vector& b, std::vector<double>& free, Vertex_vector& x, const Function& replace)
+bool replace_free_entries(const Edge_graph& graph, const Vertex_vector& b, std::vector<double>& free, Vertex_vector& x, const Function& replace,
+                          const Concurrency& concurrency = Concurrency())
 {
   x.assign(b.size(), 0.);
   if(graph.number_of_free == 0)
     return true;
   free.resize(graph.number_of_free);
-  for(std::size_t v = 0; v < b.size(); ++v)
-    if(graph.is_free(std::uint32_t(v)))
-      free[graph.free_index[v]] = b[v];
+  concurrency.for_each_range(b.size(), [&](std::size_t first, std::size_t last)
+  {
+    for(std::size_t v = first; v < last; ++v)
+      if(graph.is_free(std::uint32_t(v)))
+        free[graph.free_index[v]] = b[v];
+  });
   if(!replace(free))
     return false;
-  for(std::size_t v = 0; v < b.size(); ++v)
-    if(graph.is_free(std::uint32_t(v)) && !graph.is_held(std::uint32_t(v)))
-      x[v] = free[graph.free_index[v]];
+  concurrency.for_each_range(b.size(), [&](std::size_t first, std::size_t last)
+  {
+    for(std::size_t v = first; v < last; ++v)
+      if(graph.is_free(std::uint32_t(v)) && !graph.is_held(std::uint32_t(v)))
+        x[v] = free[graph.free_index[v]];
+  });
   return true;
 }
 
@@ -169,7 +177,12 @@ public:
   void forget_factor() { has_factor_ = false; }
 
   // How many threads may be used. Results do not depend on it.
-  void set_number_of_threads(unsigned number_of_threads) { factor_->set_number_of_threads(number_of_threads); }
+  void set_number_of_threads(unsigned number_of_threads)
+  {
+    factor_->set_number_of_threads(number_of_threads);
+    concurrency_ = Concurrency(number_of_threads);
+    iteration_.set_concurrency(concurrency_);
+  }
 
   // Holds some of the free vertices. The kept factor still serves.
   void hold(std::vector<char> held) { graph_.held = std::move(held); }
@@ -255,7 +268,7 @@ private:
   template <typename Function>
   bool apply_factor(const Vertex_vector& b, Vertex_vector& x, const Function& replace)
   {
-    return replace_free_entries(graph_, b, free_, x, replace);
+    return replace_free_entries(graph_, b, free_, x, replace, concurrency_);
   }
 
   // Positive weights of moderate range.
@@ -276,6 +289,7 @@ private:
   std::unique_ptr<Factorization> factor_;
   bool has_factor_ = false;
   Conjugate_gradients iteration_;
+  Concurrency concurrency_;
   std::vector<double> free_; // by free vertex: what is solved for
   std::size_t number_of_factorizations_ = 0, number_of_regularized_rows_ = 0;
 };

@@ -98,7 +98,7 @@ private:
   void free_stacks(std::size_t g);
   void eliminate_group(std::size_t g);
   void eliminate_top();
-  bool eliminate(int s, Number* update, Workspace& space);
+  bool eliminate(int s, Number* update, Workspace& space, const Concurrency& concurrency = Concurrency());
   void assemble(int s, Number* panel, Number* update, Workspace& space);
   void add_update(const Supernode& child, const Number* from, const Supernode& node, Number* panel, Number* update) const;
   void forward();
@@ -222,19 +222,23 @@ void Multifrontal_factor<Number>::eliminate_top()
   for(std::size_t g = 0; g < last; ++g)
     space.is_eliminated = space.is_eliminated && spaces_[g].is_eliminated;
   for(std::size_t i = 0; i < symbolic_->top.size() && space.is_eliminated; ++i)
-    space.is_eliminated = eliminate(symbolic_->top[i], nullptr, space);
+    space.is_eliminated = eliminate(symbolic_->top[i], nullptr, space, concurrency_);
   free_stacks(last);
 }
 
 // The front of the supernode s, whose update goes to the stack, unless another place is given.
 template <typename Number>
-bool Multifrontal_factor<Number>::eliminate(int s, Number* update, Workspace& space)
+bool Multifrontal_factor<Number>::eliminate(int s, Number* update, Workspace& space, const Concurrency& concurrency)
 {
   const Supernode& node = symbolic_->supernodes[s];
   Number* const panel = values_.data() + node.panel;
   Number* const to = update != nullptr ? update : space.end[node.depth % 2];
   assemble(s, panel, to, space);
-  if(!Front::eliminate(panel, to, node.number_of_columns, node.number_of_rows, space.least_pivot))
+  const int least_size_for_threads = 256;
+  const bool is_eliminated = concurrency.is_sequential() || node.front_size() < least_size_for_threads
+    ? Front::eliminate(panel, to, node.number_of_columns, node.number_of_rows, space.least_pivot)
+    : Front::eliminate(panel, to, node.number_of_columns, node.number_of_rows, space.least_pivot, concurrency);
+  if(!is_eliminated)
     return false;
   if(update == nullptr)
     space.end[node.depth % 2] += node.update_size();
