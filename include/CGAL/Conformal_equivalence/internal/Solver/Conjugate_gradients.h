@@ -71,7 +71,7 @@ public:
           r_[v] -= step * q_[v];
         }
       });
-      sizes.push_back(largest_entry(r_));
+      sizes.push_back(concurrency_.largest(r_.size(), [this](std::size_t v) { return std::abs(r_[v]); }));
       converged = sizes.back() <= goal;
       if(may_give_up && is_too_slow(sizes, goal, most))
         return iteration + 1;

@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,9 +29,31 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
+// Sorts the n entries of a column by rows, those in one row as they are; most columns have three or four.
+inline void sort_column(int* row, double* value, int n)
+{
+  const int many = 32;
+  if(n > many)
+  {
+    std::vector<std::pair<int, double> > sorted;
+    for(int k = 0; k < n; ++k)
+      sorted.emplace_back(row[k], value[k]);
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+    for(int k = 0; k < n; ++k)
+      std::tie(row[k], value[k]) = sorted[k];
+    return;
+  }
+  for(int k = 1; k < n; ++k)
+    for(int i = k; i > 0 && row[i - 1] > row[i]; --i)
+    {
+      std::swap(row[i - 1], row[i]);
+      std::swap(value[i - 1], value[i]);
+    }
+}
+
 // The lower half of A plus a diagonal, if that is not empty, by columns, in the order of the free vertices.
 inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const std::vector<double>& w,
-                                                  const Vertex_vector& shift)
+                                                  const Vertex_vector& shift, const Concurrency& concurrency = Concurrency())
 {
   typedef Eigen::SparseMatrix<double> Matrix;
   const int n = int(graph.number_of_free);
@@ -73,26 +96,24 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
       values[free_place[column]++] = graph.is_held(graph.ends[e].first) || graph.is_held(graph.ends[e].second) ? 0 : -w[e] / 2;
     }
 
-  // sort every column and join multiple edges
+  // sort every column, equal rows in the order of the edges, and join multiple edges
+  concurrency.for_each_range(std::size_t(n), [&](std::size_t first_column, std::size_t last_column)
+  {
+    for(std::size_t c = first_column; c < last_column; ++c)
+      sort_column(rows + first[c], values + first[c], first[c + 1] - first[c]);
+  });
   int end = 0;
-  struct Entry { int row, place; double value; };
-  std::vector<Entry> sorted;
   for(int c = 0; c < n; ++c)
   {
-    sorted.clear();
-    for(int k = first[c]; k < first[c + 1]; ++k)
-      sorted.push_back({rows[k], k, values[k]});
-    std::sort(sorted.begin(), sorted.end(), [](const Entry& x, const Entry& y)
-              { return x.row < y.row || (x.row == y.row && x.place < y.place); });
     a.outerIndexPtr()[c] = end;
-    for(const Entry& s : sorted)
+    for(int k = first[c]; k < first[c + 1]; ++k)
     {
-      if(end > a.outerIndexPtr()[c] && rows[end - 1] == s.row)
-        values[end - 1] += s.value;
+      if(end > a.outerIndexPtr()[c] && rows[end - 1] == rows[k])
+        values[end - 1] += values[k];
       else
       {
-        rows[end] = s.row;
-        values[end++] = s.value;
+        rows[end] = rows[k];
+        values[end++] = values[k];
       }
     }
   }
@@ -201,7 +222,7 @@ public:
     for(double relative = 1e-10; relative < 1; relative *= 100)
     {
       ++number_of_factorizations_;
-      if(factor_->factor(assemble_lower(graph_, w, shift)))
+      if(factor_->factor(assemble_lower(graph_, w, shift, concurrency_)))
         return has_factor_ = true;
       const Vertex_vector diagonal = graph_.diagonal(w);
       shift.resize(diagonal.size(), 0.);
@@ -211,7 +232,7 @@ public:
     ++number_of_factorizations_;
     const std::vector<double> tame_weights = tame(w);
     return has_factor_ = factor_->factor(assemble_lower(
-      graph_, tame_weights, graph_.held.empty() ? Vertex_vector() : regularization(graph_, tame_weights, rows)));
+      graph_, tame_weights, graph_.held.empty() ? Vertex_vector() : regularization(graph_, tame_weights, rows), concurrency_));
   }
 
   // x = A^-1 b with the matrix last factorized

@@ -287,9 +287,7 @@ void Multifrontal_factor<Number>::solve(std::vector<double>& b)
 {
   const Symbolic_factor& symbolic = *symbolic_;
   const std::size_t n = std::size_t(symbolic.size());
-  double largest = 0;
-  for(std::size_t j = 0; j < n; ++j)
-    largest = (std::max)(largest, std::abs(b[j] * scale_[j]));
+  const double largest = concurrency_.largest(n, [&](std::size_t j) { return std::abs(b[j] * scale_[j]); });
   int exponent = 0;
   std::frexp(largest, &exponent);
   const double shrink = std::ldexp(1., -exponent), grow = std::ldexp(1., exponent);
