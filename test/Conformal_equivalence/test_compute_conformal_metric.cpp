@@ -886,6 +886,11 @@ BOOST_AUTO_TEST_CASE(order_of_large_systems)
   const CEi::Symbolic_factor symbolic(a, order);
   const double n = double(t.number_of_vertices());
   BOOST_CHECK_LE(double(symbolic.number_of_values), 31 / 4. * n * std::log2(n)); // of a square grid (A. George, 1973)
+  const CEi::Symbolic_factor symbolic_by_two(a, order, int(CEi::Symbolic_factor::usual_size_of_groups), CEi::Concurrency(2));
+  BOOST_CHECK(symbolic.rows == symbolic_by_two.rows);
+  BOOST_CHECK(symbolic.rows_in_parent == symbolic_by_two.rows_in_parent);
+  BOOST_CHECK(std::equal(symbolic.entries.begin(), symbolic.entries.end(), symbolic_by_two.entries.begin(), symbolic_by_two.entries.end(),
+                         [](const auto& x, const auto& y) { return x.row == y.row && x.source == y.source; }));
 
   // one vertex that is adjacent to all others: no surface, but a matrix
   std::vector<std::pair<Index, Index> > star;
@@ -895,6 +900,35 @@ BOOST_AUTO_TEST_CASE(order_of_large_systems)
   std::sort(sorted.begin(), sorted.end());
   for(int i = 0; i < 40000; ++i)
     BOOST_REQUIRE_EQUAL(sorted[i], i);
+}
+
+// A front that several threads eliminate, block by block, is the same: what counts of it, its lower half.
+BOOST_AUTO_TEST_CASE(fronts_do_not_depend_on_the_number_of_threads)
+{
+  typedef CEi::Dense_front<float> Front;
+  for(const std::pair<int, int>& shape : {std::make_pair(150, 201), std::make_pair(64, 3), std::make_pair(131, 0)})
+  {
+    const int columns = shape.first, rows = shape.second, size = columns + rows;
+    std::vector<float> panel(std::size_t(columns * size + Front::overhang)), update(std::size_t(rows * rows + Front::overhang), 0.f);
+    const std::vector<double> random = testing::random_numbers(panel.size(), 1, 7);
+    for(int j = 0; j < columns; ++j)
+      for(int i = j; i < size; ++i)
+        panel[std::size_t(j * size + i)] = i == j ? float(size) : float(random[std::size_t(j * size + i)]); // diagonally dominant
+    std::vector<float> panel_by_two(panel), update_by_two(update);
+    float pivot = 1e30f, pivot_by_two = 1e30f;
+    BOOST_REQUIRE(Front::eliminate(panel.data(), update.data(), columns, rows, pivot));
+    BOOST_REQUIRE(Front::eliminate(panel_by_two.data(), update_by_two.data(), columns, rows, pivot_by_two, CEi::Concurrency(2)));
+    BOOST_CHECK_EQUAL(pivot, pivot_by_two);
+    int different = 0;
+    for(int j = 0; j < size; ++j)
+      for(int i = j; i < size; ++i)
+      {
+        const bool is_in_panel = j < columns;
+        const std::size_t k = std::size_t(is_in_panel ? j * size + i : (j - columns) * rows + i - columns);
+        different += is_in_panel ? panel[k] != panel_by_two[k] : update[k] != update_by_two[k];
+      }
+    BOOST_CHECK_EQUAL(different, 0);
+  }
 }
 
 // Of surfaces large enough that there is something to share.

@@ -50,17 +50,18 @@ row()
   solve=$(value solve_seconds "$of")
   discarded=$(value discarded_seconds "$of")
   [ "$(value edges_flipped "$of")" != 0 ] || discarded=
-  printf '| %s | %d | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n' "$1" "$n" "$metis" "$solve" \
+  printf '| %s | %d | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n' "$1" "$n" "$metis" "$solve" \
     "$(calculate "$solve / $metis" %.2f)" "$(calculate "$solve / $(value amd_seconds "$of")" %.2f)" \
     "$(calculate "$(value user_seconds "$of") + 0" %.2f) + $(calculate "$(value system_seconds "$of") + 0" %.2f)" \
     "$(calculate "1e6 * $(value total_seconds "$of") / $n" %.2f)" "$(calculate "1e6 * $(value layout_seconds "$of") / $n" %.2f)" \
     "$(calculate "$(value memory "$bytes") / $n" %.0f)" \
+    "$(calculate "($(value memory "$bytes") - $(value memory_before "$bytes")) / $n" %.0f)" \
     "${discarded:+$(calculate "$discarded / ($solve - $discarded)" %.2f)}" \
     "$(calculate "$(value solve_elapsed_seconds "$bytes") / $(value solve_elapsed_seconds "$two")" %.2f)"
 }
 
-echo "| mesh | vertices | METIS | solve | / METIS | / AMD | whole: user + system | whole, us a vertex | layout, us a vertex | bytes a vertex | discarded / rest | two threads, times as fast |"
-echo "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
+echo "| mesh | vertices | METIS | solve | / METIS | / AMD | whole: user + system | whole, us a vertex | layout, us a vertex | bytes a vertex | of which flatten() | discarded / rest | two threads, times as fast |"
+echo "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
 for n in $sizes; do
   row "terrain" "terrain:$n"
 done

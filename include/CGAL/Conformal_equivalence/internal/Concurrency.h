@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #ifdef CGAL_CONFORMAL_EQUIVALENCE_USE_TBB
 #  include <tbb/global_control.h>
@@ -47,11 +48,28 @@ public:
   template <typename Task>
   void for_each_range(std::size_t n, const Task& task) const
   {
-    const std::size_t length = 8192; // takes longer than to begin a task
-    for_each(int((n + length - 1) / length), [&](int i) { task(i * length, (std::min)(n, (i + 1) * length)); });
+    for_each(number_of_ranges(n), [&](int i) { task(i * length_of_ranges, (std::min)(n, (i + 1) * length_of_ranges)); });
+  }
+
+  // The largest of `value(0)`, ..., `value(n - 1)`, or 0.
+  template <typename Value>
+  double largest(std::size_t n, const Value& value) const
+  {
+    std::vector<double> result(std::size_t(number_of_ranges(n)) + 1, 0.);
+    for_each_range(n, [&](std::size_t first, std::size_t last)
+    {
+      double largest_here = 0;
+      for(std::size_t i = first; i < last; ++i)
+        largest_here = (std::max)(largest_here, double(value(i)));
+      result[first / length_of_ranges] = largest_here;
+    });
+    return *std::max_element(result.begin(), result.end());
   }
 
 private:
+  static constexpr std::size_t length_of_ranges = 8192; // takes longer than to begin a task
+  static int number_of_ranges(std::size_t n) { return int((n + length_of_ranges - 1) / length_of_ranges); }
+
   unsigned number_of_threads_;
 };
 

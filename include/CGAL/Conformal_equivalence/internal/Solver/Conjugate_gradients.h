@@ -4,6 +4,7 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_CONJUGATE_GRADIENTS_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_CONJUGATE_GRADIENTS_H
 
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 
 #include <cmath>
@@ -22,6 +23,9 @@ namespace internal {
 class Conjugate_gradients
 {
 public:
+  // How many threads may be used. Results do not depend on it.
+  void set_concurrency(const Concurrency& concurrency) { concurrency_ = concurrency; }
+
   // A x = b from x = 0, until no entry of the residual is larger than `tolerance` times the largest of b, or
   // after `most` iterations, or, if `may_give_up`, as soon as it is foreseen that these do not do; one solution with M each.
   // Returns their number.
@@ -43,8 +47,11 @@ public:
       if(iteration == 0)
         p_ = z_;
       else
-        for(std::size_t v = 0; v < p_.size(); ++v)
-          p_[v] = z_[v] + rz_new / rz * p_[v];
+        concurrency_.for_each_range(p_.size(), [&, ratio = rz_new / rz](std::size_t first, std::size_t last)
+        {
+          for(std::size_t v = first; v < last; ++v)
+            p_[v] = z_[v] + ratio * p_[v];
+        });
       rz = rz_new;
 
       system.multiply(p_, q_);
@@ -56,12 +63,15 @@ public:
         return iteration + 1;
       }
       const double step = rz / curvature;
-      for(std::size_t v = 0; v < x.size(); ++v)
+      concurrency_.for_each_range(x.size(), [&](std::size_t first, std::size_t last)
       {
-        x[v] += step * p_[v];
-        r_[v] -= step * q_[v];
-      }
-      sizes.push_back(largest_entry(r_));
+        for(std::size_t v = first; v < last; ++v)
+        {
+          x[v] += step * p_[v];
+          r_[v] -= step * q_[v];
+        }
+      });
+      sizes.push_back(concurrency_.largest(r_.size(), [this](std::size_t v) { return std::abs(r_[v]); }));
       converged = sizes.back() <= goal;
       if(may_give_up && is_too_slow(sizes, goal, most))
         return iteration + 1;
@@ -81,6 +91,7 @@ private:
   }
 
   Vertex_vector r_, z_, p_, q_;
+  Concurrency concurrency_;
 };
 
 } // namespace internal

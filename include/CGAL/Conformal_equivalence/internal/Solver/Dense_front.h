@@ -9,6 +9,7 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_DENSE_FRONT_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_DENSE_FRONT_H
 
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
 #include <CGAL/Conformal_equivalence/internal/Numbers/Vector_of.h>
 
 #include <algorithm>
@@ -32,30 +33,55 @@ class Front_kernel
   static constexpr int lanes = Vector_of<Number, bytes>::lanes;
 
   // Columns of a strip. Columns after which the rest of the front is made to follow: the more, the less often it is read and written.
-  static constexpr int width = 4, block = 64;
+  static constexpr int width = 4;
   typedef std::make_integer_sequence<int, width> Strip;
 
 public:
+  static constexpr int block = 64;
+
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
   bool eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot)
   {
-    const int size = columns + rows;
     for(int first = 0; first < columns; first += block)
     {
       const int end = (std::min)(first + block, columns);
-      for(int j = first; j < size; j += width)
-      {
-        const bool is_in_panel = j < columns;
-        const int step = is_in_panel ? size : rows, stop = j < end ? end : is_in_panel ? columns : size, n = (std::min)(int(width), stop - j);
-        Number* const strip = is_in_panel ? panel + std::ptrdiff_t(j) * size + j : update + std::ptrdiff_t(j - columns) * rows + j - columns;
-        subtract_products(strip, step, panel + std::ptrdiff_t(first) * size + j, size, size - j, (std::min)(j, end) - first, n, Strip());
-        if(j < end && !eliminate_strip(strip, size, size - j, n, least_pivot))
-          return false;
-        if(n < width) // the next strip begins at the next kind of columns
-          j = stop - width;
-      }
+      if(!eliminate_block(panel, columns, rows, first, end, least_pivot))
+        return false;
+      subtract_block(panel, update, columns, rows, first, end, end, columns + rows);
     }
     return true;
+  }
+
+  // The columns from `first` to `end` by themselves. What has been subtracted from them before, is that of all columns before `first`.
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  bool eliminate_block(Number* panel, int columns, int rows, int first, int end, Number& least_pivot)
+  {
+    const int size = columns + rows;
+    for(int j = first; j < end; j += width)
+    {
+      const int n = (std::min)(int(width), end - j);
+      Number* const strip = panel + std::ptrdiff_t(j) * size + j;
+      subtract_products(strip, size, panel + std::ptrdiff_t(first) * size + j, size, size - j, j - first, n, Strip());
+      if(!eliminate_strip(strip, size, size - j, n, least_pivot))
+        return false;
+    }
+    return true;
+  }
+
+  // Subtracts their products from the columns from `from` to `to`, of the panel or of the update.
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE static
+  void subtract_block(Number* panel, Number* update, int columns, int rows, int first, int end, int from, int to)
+  {
+    const int size = columns + rows;
+    for(int j = from; j < to; j += width)
+    {
+      const bool is_in_panel = j < columns;
+      const int step = is_in_panel ? size : rows, stop = is_in_panel ? (std::min)(to, columns) : to, n = (std::min)(int(width), stop - j);
+      Number* const strip = is_in_panel ? panel + std::ptrdiff_t(j) * size + j : update + std::ptrdiff_t(j - columns) * rows + j - columns;
+      subtract_products(strip, step, panel + std::ptrdiff_t(first) * size + j, size, size - j, end - first, n, Strip());
+      if(n < width) // the next strip begins at the next kind of columns
+        j = stop - width;
+    }
   }
 
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
@@ -273,6 +299,28 @@ public:
                               : Basic_kernel::eliminate(panel, update, columns, rows, least_pivot);
   }
 
+  // The same by several threads, to the same bits: block by block, what follows it is divided among them. As what vectors reach beyond a column is
+  // stored again, parts must not begin at the first columns of the update, of which the next ones have numbers that count so near to their beginning.
+  static bool eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot, const Concurrency& concurrency)
+  {
+    constexpr int block = Basic_kernel::block;
+    const auto number_of_parts = [](int n) { return (n + block - 1) / block; };
+    for(int first = 0; first < columns; first += block)
+    {
+      const int end = (std::min)(first + block, columns);
+      if(!eliminate_block(panel, columns, rows, first, end, least_pivot))
+        return false;
+      const int parts_of_panel = number_of_parts(columns - end);
+      concurrency.for_each(parts_of_panel + number_of_parts(rows), [&](int part)
+      {
+        const bool is_in_panel = part < parts_of_panel;
+        const int from = is_in_panel ? end + part * block : columns + (part - parts_of_panel) * block;
+        subtract_block(panel, update, columns, rows, first, end, from, (std::min)(from + block, is_in_panel ? columns : columns + rows));
+      });
+    }
+    return true;
+  }
+
   // Solves with the panel's columns of L: x on the columns, and subtracts what they contribute to the rows below.
   static void solve_forward(const Number* panel, int columns, int rows, Number* x)
   {
@@ -286,6 +334,30 @@ public:
   }
 
 private:
+  static bool eliminate_block(Number* panel, int columns, int rows, int first, int end, Number& least_pivot)
+  {
+    return has_avx2_and_fma() ? wide_eliminate_block(panel, columns, rows, first, end, least_pivot)
+                              : Basic_kernel::eliminate_block(panel, columns, rows, first, end, least_pivot);
+  }
+
+  static void subtract_block(Number* panel, Number* update, int columns, int rows, int first, int end, int from, int to)
+  {
+    return has_avx2_and_fma() ? wide_subtract_block(panel, update, columns, rows, first, end, from, to)
+                              : Basic_kernel::subtract_block(panel, update, columns, rows, first, end, from, to);
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2_AND_FMA static
+  bool wide_eliminate_block(Number* panel, int columns, int rows, int first, int end, Number& least_pivot)
+  {
+    return Wide_kernel::eliminate_block(panel, columns, rows, first, end, least_pivot);
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_AVX2_AND_FMA static
+  void wide_subtract_block(Number* panel, Number* update, int columns, int rows, int first, int end, int from, int to)
+  {
+    Wide_kernel::subtract_block(panel, update, columns, rows, first, end, from, to);
+  }
+
   CGAL_CONFORMAL_EQUIVALENCE_AVX2_AND_FMA static bool wide_eliminate(Number* panel, Number* update, int columns, int rows, Number& least_pivot)
   {
     return Wide_kernel::eliminate(panel, update, columns, rows, least_pivot);

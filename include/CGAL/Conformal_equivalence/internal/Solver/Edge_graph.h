@@ -136,10 +136,11 @@ struct Edge_graph
 };
 
 // What is added to the diagonal of A where triangles are broken: rows that have
-// lost (nearly) all of their weight get the mean weight. So do those of held vertices, which have none.
+// lost (nearly) all of their weight get the mean weight. So do those of held vertices, which have none. Empty where there are no such rows.
 inline Vertex_vector regularization(const Edge_graph& graph, const std::vector<double>& w, std::size_t& rows)
 {
-  Vertex_vector d = graph.diagonal(w), result(d.size(), 0.);
+  const Vertex_vector d = graph.diagonal(w);
+  Vertex_vector result;
   double sum = 0, largest = 0;
   for(double x : d)
   {
@@ -152,6 +153,7 @@ inline Vertex_vector regularization(const Edge_graph& graph, const std::vector<d
   {
     if(!graph.is_free(v) || d[v] > 1e-14 * largest)
       continue;
+    result.resize(d.size(), 0.);
     result[v] = mean;
     if(!graph.is_held(v))
       ++rows;

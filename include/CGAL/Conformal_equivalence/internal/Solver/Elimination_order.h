@@ -117,7 +117,7 @@ private:
   {
     std::vector<int> first, neighbor;
     find_neighbors(a, first, neighbor);
-    const Nested_dissection dissection(first, neighbor, levels);
+    const Nested_dissection dissection(first, neighbor, levels, concurrency);
     if(dissection.number_of_separating_vertices() > std::size_t(a.size()) / 8)
       return false;
     std::vector<std::vector<int> > sets = dissection.sets();

@@ -8,6 +8,9 @@
 
 #include <CGAL/Conformal_equivalence/Eigen_pattern_solver_traits.h>
 #include <CGAL/Conformal_equivalence/Multifrontal_solver_traits.h>
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Elimination_order.h>
+#include <CGAL/Conformal_equivalence/internal/Solver/Mixed_precision_factor.h>
 #include <CGAL/Conformal_equivalence/internal/compiled.h>
 
 #include <Eigen/SparseCore>
@@ -148,6 +151,34 @@ private:
   bool is_analyzed_ = false;
   std::unique_ptr<Vector> right_, solution_; // allocated once for all systems of `size_` unknowns
   std::size_t size_ = 0;
+};
+
+// The factor of this package works with vectors and matrices of its own, of which there is then but one copy each.
+template <>
+class Factorization_by<Multifrontal_solver_traits> final : public Factorization
+{
+public:
+  explicit Factorization_by(const Multifrontal_solver_traits&) {} // copies of which know nothing
+
+  void forget_pattern() override { is_analyzed_ = false; }
+  void set_number_of_threads(unsigned number_of_threads) override { factor_.set_concurrency(Concurrency(number_of_threads)); }
+
+  bool factor(Eigen::SparseMatrix<double> lower) override
+  {
+    Lower_half a = lower_half(lower);
+    Eigen::SparseMatrix<double>().swap(lower); // its memory is needed for the factor
+    if(!is_analyzed_)
+      factor_.analyze(a);
+    is_analyzed_ = true;
+    return factor_.factorize(std::move(a));
+  }
+
+  bool solve(std::vector<double>& b) override { return factor_.solve(b); }
+  bool precondition(std::vector<double>& b) override { return factor_.precondition(b); }
+
+private:
+  Mixed_precision_factor<float, double> factor_;
+  bool is_analyzed_ = false;
 };
 
 template <typename SolverTraits>

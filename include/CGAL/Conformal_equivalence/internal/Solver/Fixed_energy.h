@@ -21,12 +21,18 @@ namespace internal {
 
 // The faces of a surface that violate the triangle inequality at the factors s, decided exactly.
 template <typename Surface, typename Wide>
-std::vector<std::uint32_t> violated_faces(const Surface& t, const std::vector<Wide>& s)
+std::vector<std::uint32_t> violated_faces(const Surface& t, const std::vector<Wide>& s, const Concurrency& concurrency = Concurrency())
 {
+  std::vector<char> is_violated(t.number_of_faces(), 0);
+  concurrency.for_each_range(is_violated.size(), [&](std::size_t first, std::size_t last)
+  {
+    for(std::uint32_t f = std::uint32_t(first); f < last; ++f)
+      is_violated[f] = !is_scaled_triangle(s[t.origin(3 * f)], s[t.origin(3 * f + 1)], s[t.origin(3 * f + 2)],
+                                           Wide(t.halfedge_length(3 * f)), Wide(t.halfedge_length(3 * f + 1)), Wide(t.halfedge_length(3 * f + 2)));
+  });
   std::vector<std::uint32_t> result;
   for(std::uint32_t f = 0; f < t.number_of_faces(); ++f)
-    if(!is_scaled_triangle(s[t.origin(3 * f)], s[t.origin(3 * f + 1)], s[t.origin(3 * f + 2)],
-                           Wide(t.halfedge_length(3 * f)), Wide(t.halfedge_length(3 * f + 1)), Wide(t.halfedge_length(3 * f + 2))))
+    if(is_violated[f])
       result.push_back(f);
   return result;
 }
@@ -57,7 +63,7 @@ public:
     return add_wide_newton_step(surface_, graph, residual, s);
   }
 
-  std::vector<std::uint32_t> faces_violated_at(const Factors& s) const override { return violated_faces(surface_, s); }
+  std::vector<std::uint32_t> faces_violated_at(const Factors& s) const override { return violated_faces(surface_, s, concurrency_); }
 
 protected:
   const Surface& surface() const { return surface_; }

@@ -9,6 +9,7 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_LAPLACIAN_SOLVER_H
 
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Conjugate_gradients.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Edge_graph.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
@@ -20,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,9 +29,31 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-// The lower half of A plus a diagonal, by columns, in the order of the free vertices.
+// Sorts the n entries of a column by rows, those in one row as they are; most columns have three or four.
+inline void sort_column(int* row, double* value, int n)
+{
+  const int many = 32;
+  if(n > many)
+  {
+    std::vector<std::pair<int, double> > sorted;
+    for(int k = 0; k < n; ++k)
+      sorted.emplace_back(row[k], value[k]);
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+    for(int k = 0; k < n; ++k)
+      std::tie(row[k], value[k]) = sorted[k];
+    return;
+  }
+  for(int k = 1; k < n; ++k)
+    for(int i = k; i > 0 && row[i - 1] > row[i]; --i)
+    {
+      std::swap(row[i - 1], row[i]);
+      std::swap(value[i - 1], value[i]);
+    }
+}
+
+// The lower half of A plus a diagonal, if that is not empty, by columns, in the order of the free vertices.
 inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const std::vector<double>& w,
-                                                  const Vertex_vector& shift)
+                                                  const Vertex_vector& shift, const Concurrency& concurrency = Concurrency())
 {
   typedef Eigen::SparseMatrix<double> Matrix;
   const int n = int(graph.number_of_free);
@@ -63,7 +87,7 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
     {
       const int c = int(graph.free_index[v]);
       rows[free_place[c]] = c;
-      values[free_place[c]++] = d[v] + shift[v];
+      values[free_place[c]++] = d[v] + (shift.empty() ? 0 : shift[v]);
     }
   for(std::size_t e = 0; e < graph.ends.size(); ++e)
     if(entry(e, row, column))
@@ -72,26 +96,24 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
       values[free_place[column]++] = graph.is_held(graph.ends[e].first) || graph.is_held(graph.ends[e].second) ? 0 : -w[e] / 2;
     }
 
-  // sort every column and join multiple edges
+  // sort every column, equal rows in the order of the edges, and join multiple edges
+  concurrency.for_each_range(std::size_t(n), [&](std::size_t first_column, std::size_t last_column)
+  {
+    for(std::size_t c = first_column; c < last_column; ++c)
+      sort_column(rows + first[c], values + first[c], first[c + 1] - first[c]);
+  });
   int end = 0;
-  struct Entry { int row, place; double value; };
-  std::vector<Entry> sorted;
   for(int c = 0; c < n; ++c)
   {
-    sorted.clear();
-    for(int k = first[c]; k < first[c + 1]; ++k)
-      sorted.push_back({rows[k], k, values[k]});
-    std::sort(sorted.begin(), sorted.end(), [](const Entry& x, const Entry& y)
-              { return x.row < y.row || (x.row == y.row && x.place < y.place); });
     a.outerIndexPtr()[c] = end;
-    for(const Entry& s : sorted)
+    for(int k = first[c]; k < first[c + 1]; ++k)
     {
-      if(end > a.outerIndexPtr()[c] && rows[end - 1] == s.row)
-        values[end - 1] += s.value;
+      if(end > a.outerIndexPtr()[c] && rows[end - 1] == rows[k])
+        values[end - 1] += values[k];
       else
       {
-        rows[end] = s.row;
-        values[end++] = s.value;
+        rows[end] = rows[k];
+        values[end++] = values[k];
       }
     }
   }
@@ -103,20 +125,27 @@ inline Eigen::SparseMatrix<double> assemble_lower(const Edge_graph& graph, const
 // At free vertices that are not held x is what `replace` makes of the entries of b, by free vertex, of which it returns whether it could; elsewhere
 // 0. `free` is room for these.
 template <typename Function>
-bool replace_free_entries(const Edge_graph& graph, const Vertex_vector& b, std::vector<double>& free, Vertex_vector& x, const Function& replace)
+bool replace_free_entries(const Edge_graph& graph, const Vertex_vector& b, std::vector<double>& free, Vertex_vector& x, const Function& replace,
+                          const Concurrency& concurrency = Concurrency())
 {
   x.assign(b.size(), 0.);
   if(graph.number_of_free == 0)
     return true;
   free.resize(graph.number_of_free);
-  for(std::size_t v = 0; v < b.size(); ++v)
-    if(graph.is_free(std::uint32_t(v)))
-      free[graph.free_index[v]] = b[v];
+  concurrency.for_each_range(b.size(), [&](std::size_t first, std::size_t last)
+  {
+    for(std::size_t v = first; v < last; ++v)
+      if(graph.is_free(std::uint32_t(v)))
+        free[graph.free_index[v]] = b[v];
+  });
   if(!replace(free))
     return false;
-  for(std::size_t v = 0; v < b.size(); ++v)
-    if(graph.is_free(std::uint32_t(v)) && !graph.is_held(std::uint32_t(v)))
-      x[v] = free[graph.free_index[v]];
+  concurrency.for_each_range(b.size(), [&](std::size_t first, std::size_t last)
+  {
+    for(std::size_t v = first; v < last; ++v)
+      if(graph.is_free(std::uint32_t(v)) && !graph.is_held(std::uint32_t(v)))
+        x[v] = free[graph.free_index[v]];
+  });
   return true;
 }
 
@@ -169,7 +198,12 @@ public:
   void forget_factor() { has_factor_ = false; }
 
   // How many threads may be used. Results do not depend on it.
-  void set_number_of_threads(unsigned number_of_threads) { factor_->set_number_of_threads(number_of_threads); }
+  void set_number_of_threads(unsigned number_of_threads)
+  {
+    factor_->set_number_of_threads(number_of_threads);
+    concurrency_ = Concurrency(number_of_threads);
+    iteration_.set_concurrency(concurrency_);
+  }
 
   // Holds some of the free vertices. The kept factor still serves.
   void hold(std::vector<char> held) { graph_.held = std::move(held); }
@@ -185,19 +219,20 @@ public:
     std::size_t rows = 0;
     Vertex_vector shift = regularization(graph_, w, rows);
     number_of_regularized_rows_ = (std::max)(number_of_regularized_rows_, rows);
-    const Vertex_vector diagonal = graph_.diagonal(w);
     for(double relative = 1e-10; relative < 1; relative *= 100)
     {
       ++number_of_factorizations_;
-      if(factor_->factor(assemble_lower(graph_, w, shift)))
+      if(factor_->factor(assemble_lower(graph_, w, shift, concurrency_)))
         return has_factor_ = true;
+      const Vertex_vector diagonal = graph_.diagonal(w);
+      shift.resize(diagonal.size(), 0.);
       for(std::size_t v = 0; v < shift.size(); ++v)
         shift[v] += relative * (std::max)(diagonal[v], 0.);
     }
     ++number_of_factorizations_;
     const std::vector<double> tame_weights = tame(w);
     return has_factor_ = factor_->factor(assemble_lower(
-      graph_, tame_weights, graph_.held.empty() ? Vertex_vector(shift.size(), 0.) : regularization(graph_, tame_weights, rows)));
+      graph_, tame_weights, graph_.held.empty() ? Vertex_vector() : regularization(graph_, tame_weights, rows), concurrency_));
   }
 
   // x = A^-1 b with the matrix last factorized
@@ -254,7 +289,7 @@ private:
   template <typename Function>
   bool apply_factor(const Vertex_vector& b, Vertex_vector& x, const Function& replace)
   {
-    return replace_free_entries(graph_, b, free_, x, replace);
+    return replace_free_entries(graph_, b, free_, x, replace, concurrency_);
   }
 
   // Positive weights of moderate range.
@@ -275,6 +310,7 @@ private:
   std::unique_ptr<Factorization> factor_;
   bool has_factor_ = false;
   Conjugate_gradients iteration_;
+  Concurrency concurrency_;
   std::vector<double> free_; // by free vertex: what is solved for
   std::size_t number_of_factorizations_ = 0, number_of_regularized_rows_ = 0;
 };

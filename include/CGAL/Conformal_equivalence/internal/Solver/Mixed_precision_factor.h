@@ -66,9 +66,10 @@ void Mixed_precision_factor<Single, Double>::set_concurrency(const Concurrency& 
 template <typename Single, typename Double>
 void Mixed_precision_factor<Single, Double>::analyze(const Lower_half& a)
 {
-  symbolic_ = std::make_shared<Symbolic_factor>(a, Elimination_order(a, concurrency_));
-  single_.reset();
+  single_.reset(); // before there is another one
   double_.reset();
+  symbolic_.reset();
+  symbolic_ = std::make_shared<Symbolic_factor>(a, Elimination_order(a, concurrency_), int(Symbolic_factor::usual_size_of_groups), concurrency_);
 }
 
 // A pivot bounds the smallest eigenvalue of the scaled matrix from above. Where one is as tiny as its rounding errors, or not much larger, so may be

@@ -60,9 +60,17 @@ private:
   public:
     void resize(std::size_t size)
     {
-      if(size != size_)
-        numbers_.reset(new Number[size]);
+      if(size == size_)
+        return;
+      free();
+      numbers_.reset(new Number[size]);
       size_ = size;
+    }
+
+    void free()
+    {
+      numbers_.reset();
+      size_ = 0;
     }
 
     Number* data() { return numbers_.get(); }
@@ -76,7 +84,7 @@ private:
   // What one group of subtrees, or the top, needs for itself.
   struct Workspace
   {
-    Room stack[2];                // updates
+    Room stack[2];                // updates, while there are any
     Number* end[2];               // of what is on the stacks
     std::vector<Number> front;    // a vector on one front
     std::vector<Number> on_top;   // what vectors of the group add to the columns of the top
@@ -86,9 +94,11 @@ private:
 
   bool scale(const Lower_half& a);
   void prepare();
+  void make_stacks(std::size_t g);
+  void free_stacks(std::size_t g);
   void eliminate_group(std::size_t g);
   void eliminate_top();
-  bool eliminate(int s, Number* update, Workspace& space);
+  bool eliminate(int s, Number* update, Workspace& space, const Concurrency& concurrency = Concurrency());
   void assemble(int s, Number* panel, Number* update, Workspace& space);
   void add_update(const Supernode& child, const Number* from, const Supernode& node, Number* panel, Number* update) const;
   void forward();
@@ -98,9 +108,9 @@ private:
 
   std::shared_ptr<const Symbolic_factor> symbolic_;
   std::vector<double> scale_;      // by unknown
-  std::vector<Number> entries_;    // of the scaled matrix
+  std::vector<Number> entries_;    // of the scaled matrix, while it is factorized
   Room values_;                    // of L, panel by panel
-  Room kept_;                      // updates of the roots of subtrees
+  Room kept_;                      // updates of the roots of subtrees, as long
   std::vector<std::size_t> place_of_kept_; // by supernode, if it is such a root
   std::vector<Workspace> spaces_;  // by group, and of the top
   std::vector<Number> x_;
@@ -143,6 +153,8 @@ bool Multifrontal_factor<Number>::factorize(const Lower_half& a)
   prepare();
   concurrency_.for_each(int(symbolic_->groups.size()), [this](int g) { eliminate_group(std::size_t(g)); });
   eliminate_top();
+  std::vector<Number>().swap(entries_);
+  kept_.free();
   least_pivot_ = (std::numeric_limits<Number>::max)();
   bool is_eliminated = true;
   for(const Workspace& space : spaces_)
@@ -153,7 +165,7 @@ bool Multifrontal_factor<Number>::factorize(const Lower_half& a)
   return is_eliminated && least_pivot_ > std::numeric_limits<Number>::epsilon(); // smaller ones have not a single digit
 }
 
-// Makes room, which is kept for the next factorization.
+// Makes room. That for L is kept for the next factorization.
 template <typename Number>
 void Multifrontal_factor<Number>::prepare()
 {
@@ -165,46 +177,68 @@ void Multifrontal_factor<Number>::prepare()
     for(const Symbolic_factor::Subtree& subtree : group)
       place_of_kept_[std::size_t(subtree.end) - 1] = subtree.update;
   spaces_.resize(symbolic.stacks.size());
-  for(std::size_t g = 0; g < spaces_.size(); ++g)
+  for(Workspace& space : spaces_)
   {
-    for(int i = 0; i < 2; ++i)
-    {
-      spaces_[g].stack[i].resize(symbolic.stacks[g].of_parity[i] + Front::overhang);
-      spaces_[g].end[i] = spaces_[g].stack[i].data();
-    }
-    spaces_[g].least_pivot = (std::numeric_limits<Number>::max)();
-    spaces_[g].is_eliminated = true;
+    space.least_pivot = (std::numeric_limits<Number>::max)();
+    space.is_eliminated = true;
   }
+}
+
+template <typename Number>
+void Multifrontal_factor<Number>::make_stacks(std::size_t g)
+{
+  for(int i = 0; i < 2; ++i)
+  {
+    spaces_[g].stack[i].resize(symbolic_->stacks[g].of_parity[i] + Front::overhang);
+    spaces_[g].end[i] = spaces_[g].stack[i].data();
+  }
+}
+
+// So the stacks of the next group, or what comes after the factorization, may be in the same place.
+template <typename Number>
+void Multifrontal_factor<Number>::free_stacks(std::size_t g)
+{
+  for(Room& stack : spaces_[g].stack)
+    stack.free();
 }
 
 template <typename Number>
 void Multifrontal_factor<Number>::eliminate_group(std::size_t g)
 {
   Workspace& space = spaces_[g];
+  make_stacks(g);
   for(const Symbolic_factor::Subtree& subtree : symbolic_->groups[g])
     for(int s = subtree.first; s < subtree.end && space.is_eliminated; ++s)
       space.is_eliminated = eliminate(s, s == subtree.end - 1 ? kept_.data() + subtree.update : nullptr, space);
+  free_stacks(g);
 }
 
 template <typename Number>
 void Multifrontal_factor<Number>::eliminate_top()
 {
-  Workspace& space = spaces_.back();
-  for(std::size_t g = 0; g + 1 < spaces_.size(); ++g)
+  const std::size_t last = spaces_.size() - 1;
+  Workspace& space = spaces_[last];
+  make_stacks(last);
+  for(std::size_t g = 0; g < last; ++g)
     space.is_eliminated = space.is_eliminated && spaces_[g].is_eliminated;
   for(std::size_t i = 0; i < symbolic_->top.size() && space.is_eliminated; ++i)
-    space.is_eliminated = eliminate(symbolic_->top[i], nullptr, space);
+    space.is_eliminated = eliminate(symbolic_->top[i], nullptr, space, concurrency_);
+  free_stacks(last);
 }
 
 // The front of the supernode s, whose update goes to the stack, unless another place is given.
 template <typename Number>
-bool Multifrontal_factor<Number>::eliminate(int s, Number* update, Workspace& space)
+bool Multifrontal_factor<Number>::eliminate(int s, Number* update, Workspace& space, const Concurrency& concurrency)
 {
   const Supernode& node = symbolic_->supernodes[s];
   Number* const panel = values_.data() + node.panel;
   Number* const to = update != nullptr ? update : space.end[node.depth % 2];
   assemble(s, panel, to, space);
-  if(!Front::eliminate(panel, to, node.number_of_columns, node.number_of_rows, space.least_pivot))
+  const int least_size_for_threads = 256;
+  const bool is_eliminated = concurrency.is_sequential() || node.front_size() < least_size_for_threads
+    ? Front::eliminate(panel, to, node.number_of_columns, node.number_of_rows, space.least_pivot)
+    : Front::eliminate(panel, to, node.number_of_columns, node.number_of_rows, space.least_pivot, concurrency);
+  if(!is_eliminated)
     return false;
   if(update == nullptr)
     space.end[node.depth % 2] += node.update_size();
@@ -220,8 +254,9 @@ void Multifrontal_factor<Number>::assemble(int s, Number* panel, Number* update,
   const Supernode& node = symbolic.supernodes[s];
   std::fill_n(panel, node.panel_size() + Front::overhang, Number(0));
   std::fill_n(update, node.update_size() + Front::overhang, Number(0));
-  for(std::size_t k = symbolic.first_entry[s]; k < symbolic.first_entry[s + 1]; ++k)
-    values_.data()[symbolic.entries[k].place] = entries_[symbolic.entries[k].source];
+  for(int j = 0; j < node.number_of_columns; ++j)
+    for(int k = symbolic.first_entry[node.first_column + j]; k < symbolic.first_entry[node.first_column + j + 1]; ++k)
+      panel[std::ptrdiff_t(j) * node.front_size() + symbolic.entries[k].row] = entries_[symbolic.entries[k].source];
   Number*& children_end = space.end[1 - node.depth % 2];
   for(int child = node.first_child; child != Symbolic_factor::none; child = symbolic.supernodes[child].next_sibling)
   {
@@ -252,9 +287,7 @@ void Multifrontal_factor<Number>::solve(std::vector<double>& b)
 {
   const Symbolic_factor& symbolic = *symbolic_;
   const std::size_t n = std::size_t(symbolic.size());
-  double largest = 0;
-  for(std::size_t j = 0; j < n; ++j)
-    largest = (std::max)(largest, std::abs(b[j] * scale_[j]));
+  const double largest = concurrency_.largest(n, [&](std::size_t j) { return std::abs(b[j] * scale_[j]); });
   int exponent = 0;
   std::frexp(largest, &exponent);
   const double shrink = std::ldexp(1., -exponent), grow = std::ldexp(1., exponent);

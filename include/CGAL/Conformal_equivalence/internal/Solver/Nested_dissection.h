@@ -7,6 +7,8 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NESTED_DISSECTION_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_NESTED_DISSECTION_H
 
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -32,8 +34,9 @@ class Graph_bisection
 {
 public:
   // The number of the part, of 2^levels, of every vertex: the binary digits tell on which side of each separator it is, that of the first one first.
-  Graph_bisection(const Weighted_graph& graph, int levels)
-    : parts(std::size_t(graph.size()), 0), graph_(graph), set_(parts.size(), none), side_(parts.size(), 0)
+  // It does not depend on the number of threads.
+  Graph_bisection(const Weighted_graph& graph, int levels, const Concurrency& concurrency = Concurrency())
+    : parts(std::size_t(graph.size()), 0), graph_(graph), set_(parts.size(), none), side_(parts.size(), 0), concurrency_(concurrency)
   {
     std::vector<int> all(parts.size());
     for(std::size_t v = 0; v < all.size(); ++v)
@@ -57,8 +60,34 @@ private:
       parts[v] = 2 * parts[v] + side_[v];
       halves[int(side_[v])].push_back(v);
     }
-    for(const std::vector<int>& half : halves)
-      divide(half, levels - 1);
+    if(concurrency_.is_sequential())
+      for(const std::vector<int>& half : halves)
+        divide(half, levels - 1);
+    else
+      concurrency_.for_each(2, [&](int i) { divide_apart(halves[i], levels - 1); });
+  }
+
+  // The same, with no more than reads of what other threads may read, too: as a graph by itself.
+  void divide_apart(const std::vector<int>& vertices, int levels)
+  {
+    Weighted_graph part;
+    std::vector<int> place(std::size_t(graph_.size()), none);
+    for(std::size_t i = 0; i < vertices.size(); ++i)
+      place[vertices[i]] = int(i);
+    for(const int v : vertices)
+    {
+      for(int k = graph_.first[v]; k < graph_.first[v + 1]; ++k)
+        if(place[graph_.neighbor[k]] != none)
+        {
+          part.neighbor.push_back(place[graph_.neighbor[k]]);
+          part.edge_weight.push_back(graph_.edge_weight[k]);
+        }
+      part.first.push_back(int(part.neighbor.size()));
+      part.vertex_weight.push_back(graph_.vertex_weight[v]);
+    }
+    const std::vector<int> parts_of_half = Graph_bisection(part, levels).parts;
+    for(std::size_t i = 0; i < vertices.size(); ++i)
+      parts[vertices[i]] = (parts[vertices[i]] << levels) + parts_of_half[i];
   }
 
   // Of two vertices that are apart, one half is nearer to the first one. Corners of a square are apart, but so are opposite ones, and the way
@@ -204,17 +233,19 @@ private:
   int number_of_sets_ = 0;
   std::vector<char> side_;
   std::vector<int> distance_, queue_;
+  const Concurrency concurrency_;
 };
 
 class Nested_dissection
 {
 public:
   // By separators that depend on nothing but the graph, given by `first` and `neighbor` as in `Weighted_graph`, into 2^levels parts.
-  Nested_dissection(const std::vector<int>& first, const std::vector<int>& neighbor, int levels)
+  // They do not depend on the number of threads, either.
+  Nested_dissection(const std::vector<int>& first, const std::vector<int>& neighbor, int levels, const Concurrency& concurrency = Concurrency())
     : first_(first), neighbor_(neighbor), levels_(levels)
   {
     grow_clusters();
-    const std::vector<int> parts = Graph_bisection(graph_of_clusters(), levels).parts;
+    const std::vector<int> parts = Graph_bisection(graph_of_clusters(), levels, concurrency).parts;
     part_.reserve(first.size() - 1);
     for(const int c : cluster_)
       part_.push_back(parts[c]);

@@ -10,7 +10,10 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_SYMBOLIC_FACTOR_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SOLVER_SYMBOLIC_FACTOR_H
 
+#include <CGAL/Conformal_equivalence/internal/Concurrency.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Elimination_order.h>
+
+#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -200,15 +203,17 @@ public:
     std::size_t update_size() const { return std::size_t(number_of_rows) * std::size_t(number_of_rows); }
   };
 
-  // An entry of the matrix, and its place in L.
+  // An entry of the matrix, and the row of the front that it is in.
   struct Entry
   {
-    std::size_t place;
-    int source;
+    int row, source;
   };
 
-  // Problems of at least `least_size_of_groups` unknowns are divided into groups.
-  Symbolic_factor(const Lower_half& a, const Elimination_order& order, int least_size_of_groups = 5000)
+  static constexpr int usual_size_of_groups = 5000;
+
+  // Problems of at least `least_size_of_groups` unknowns are divided into groups. The number of threads does not matter.
+  Symbolic_factor(const Lower_half& a, const Elimination_order& order, int least_size_of_groups = usual_size_of_groups,
+                  const Concurrency& concurrency = Concurrency())
   {
     const std::vector<int> parent = elimination_tree::parents(
       elimination_tree::ordered_pattern(a, inverse_permutation(order.unknowns()), false));
@@ -219,11 +224,11 @@ public:
       unknowns.push_back(order.unknowns()[j]);
     const elimination_tree::Ordered_pattern by_columns = elimination_tree::ordered_pattern(a, inverse_permutation(unknowns), true);
     find_supernodes(tree, elimination_tree::column_counts(by_columns, tree));
-    find_fronts(a, by_columns);
-    find_depths();
+    find_forest(tree);
     find_groups(size() < least_size_of_groups ? 1 : 4);
     separate_groups();
     find_stacks();
+    find_fronts(by_columns, diagonal_entries(a), concurrency);
   }
 
   int size() const { return int(unknowns.size()); }
@@ -232,8 +237,8 @@ public:
   std::vector<Supernode> supernodes;       // in postorder
   std::vector<int> rows;                   // of the fronts below the columns, ascending
   std::vector<int> rows_in_parent;         // the same, as rows of the parent's front
-  std::vector<Entry> entries;              // by supernode
-  std::vector<std::size_t> first_entry;    // by supernode, and the end
+  std::vector<Entry> entries;              // by column
+  std::vector<int> first_entry;            // by column, and the end
   std::size_t number_of_values = 0;        // of L, with the zeros
   int largest_front = 0;
 
@@ -322,73 +327,106 @@ private:
         supernodes.emplace_back();
         supernodes.back().first_column = columns[s].first;
         supernodes.back().number_of_columns = columns[s].number;
+        supernodes.back().number_of_rows = columns[s].count - columns[s].number;
       }
   }
 
-  // The rows of every front, and where the entries of the matrix and the rows of its children are in it.
-  void find_fronts(const Lower_half& a, const elimination_tree::Ordered_pattern& by_columns)
+  // Which supernode hangs on which, and where their rows and panels are.
+  void find_forest(const std::vector<int>& parent)
   {
-    std::vector<int> supernode_of(unknowns.size()), place(unknowns.size()), diagonal = diagonal_entries(a);
+    std::vector<int> supernode_of(unknowns.size());
     for(int s = 0; s < int(supernodes.size()); ++s)
       std::fill_n(supernode_of.begin() + supernodes[s].first_column, supernodes[s].number_of_columns, s);
-    std::vector<int> seen_by(unknowns.size(), none);
-    entries.reserve(a.row.size());
-    first_entry.assign(1, 0);
+    std::size_t number_of_rows = 0;
     for(int s = 0; s < int(supernodes.size()); ++s)
     {
-      find_rows(s, by_columns, seen_by);
       Supernode& node = supernodes[s];
-      for(int i = 0; i < node.number_of_columns; ++i)
-        place[node.first_column + i] = i;
-      for(int i = 0; i < node.number_of_rows; ++i)
-        place[rows[node.first_row + i]] = node.number_of_columns + i;
-      for(int child = node.first_child; child != none; child = supernodes[child].next_sibling)
-        for(std::size_t k = supernodes[child].first_row; k < supernodes[child].first_row + supernodes[child].number_of_rows; ++k)
-          rows_in_parent[k] = place[rows[k]];
+      node.first_row = number_of_rows;
+      number_of_rows += std::size_t(node.number_of_rows);
       node.panel = number_of_values;
       number_of_values += node.panel_size();
       largest_front = (std::max)(largest_front, node.front_size());
-      for(int j = node.first_column; j < node.end_column(); ++j)
-      {
-        const std::size_t column = node.panel + std::size_t(place[j]) * node.front_size();
-        if(diagonal[unknowns[j]] != none)
-          entries.push_back({column + place[j], diagonal[unknowns[j]]});
-        for(int k = by_columns.first[j]; k < by_columns.first[j + 1]; ++k)
-          entries.push_back({column + place[by_columns.index[k]], by_columns.source[k]});
-      }
-      first_entry.push_back(entries.size());
-      if(node.number_of_rows > 0)
-      {
-        node.parent = supernode_of[rows[node.first_row]];
-        node.next_sibling = std::exchange(supernodes[node.parent].first_child, s);
-      }
+      if(node.number_of_rows == 0)
+        continue;
+      node.parent = supernode_of[parent[node.end_column() - 1]];
+      node.next_sibling = std::exchange(supernodes[node.parent].first_child, s);
+    }
+    rows.resize(number_of_rows);
+    rows_in_parent.resize(number_of_rows);
+    for(int s = int(supernodes.size()) - 1; s >= 0; --s)
+      if(supernodes[s].parent != none)
+        supernodes[s].depth = supernodes[supernodes[s].parent].depth + 1;
+  }
+
+  // The rows of every front, and where the entries of the matrix and the rows of its children are in it.
+  void find_fronts(const elimination_tree::Ordered_pattern& by_columns, const std::vector<int>& diagonal, const Concurrency& concurrency)
+  {
+    first_entry.assign(1, 0);
+    first_entry.reserve(unknowns.size() + 1);
+    for(int j = 0; j < size(); ++j)
+      first_entry.push_back(first_entry[j] + by_columns.first[j + 1] - by_columns.first[j] + (diagonal[unknowns[j]] != none ? 1 : 0));
+    entries.resize(std::size_t(first_entry.back()));
+    concurrency.for_each(int(groups.size()), [&](int g)
+    {
+      Marks marks(unknowns.size());
+      for(const Subtree& subtree : groups[g])
+        for(int s = subtree.first; s < subtree.end; ++s)
+          find_front(s, by_columns, diagonal, marks);
+    });
+    Marks marks(top.empty() ? 0 : unknowns.size());
+    for(const int s : top)
+      find_front(s, by_columns, diagonal, marks);
+  }
+
+  // By row: where it is in the front, and the last front that has it.
+  struct Marks
+  {
+    explicit Marks(std::size_t n) : place(n), seen_by(n, none) {}
+    std::vector<int> place, seen_by;
+  };
+
+  void find_front(int s, const elimination_tree::Ordered_pattern& by_columns, const std::vector<int>& diagonal, Marks& marks)
+  {
+    find_rows(s, by_columns, marks.seen_by);
+    const Supernode& node = supernodes[s];
+    for(int i = 0; i < node.number_of_columns; ++i)
+      marks.place[node.first_column + i] = i;
+    for(int i = 0; i < node.number_of_rows; ++i)
+      marks.place[rows[node.first_row + i]] = node.number_of_columns + i;
+    for(int child = node.first_child; child != none; child = supernodes[child].next_sibling)
+      for(std::size_t k = supernodes[child].first_row; k < supernodes[child].first_row + supernodes[child].number_of_rows; ++k)
+        rows_in_parent[k] = marks.place[rows[k]];
+    for(int j = node.first_column; j < node.end_column(); ++j)
+    {
+      Entry* entry = entries.data() + first_entry[j];
+      if(diagonal[unknowns[j]] != none)
+        *entry++ = {marks.place[j], diagonal[unknowns[j]]};
+      for(int k = by_columns.first[j]; k < by_columns.first[j + 1]; ++k)
+        *entry++ = {marks.place[by_columns.index[k]], by_columns.source[k]};
     }
   }
 
-  // The rows below the columns of a supernode: those of the matrix and those of the children.
+  // The rows below the columns of a supernode: those of the matrix and those of the children. As many as were counted.
   void find_rows(int s, const elimination_tree::Ordered_pattern& by_columns, std::vector<int>& seen_by)
   {
-    Supernode& node = supernodes[s];
-    node.first_row = rows.size();
+    const Supernode& node = supernodes[s];
+    int* const first = rows.data() + node.first_row;
+    int* end = first;
     const auto add = [&](int row)
     {
       if(row >= node.end_column() && seen_by[row] != s)
       {
         seen_by[row] = s;
-        rows.push_back(row);
+        *end++ = row;
       }
     };
     for(int k = by_columns.first[node.first_column]; k < by_columns.first[node.end_column()]; ++k)
       add(by_columns.index[k]);
     for(int child = node.first_child; child != none; child = supernodes[child].next_sibling)
-    {
-      const std::size_t first = supernodes[child].first_row;
-      for(int i = 0; i < supernodes[child].number_of_rows; ++i)
-        add(rows[first + i]);
-    }
-    std::sort(rows.begin() + std::ptrdiff_t(node.first_row), rows.end());
-    rows_in_parent.resize(rows.size());
-    node.number_of_rows = int(rows.size() - node.first_row);
+      for(std::size_t i = supernodes[child].first_row; i < supernodes[child].first_row + supernodes[child].number_of_rows; ++i)
+        add(rows[i]);
+    CGAL_assertion(end == first + node.number_of_rows);
+    std::sort(first, end);
   }
 
   static std::vector<int> diagonal_entries(const Lower_half& a)
@@ -399,13 +437,6 @@ private:
         if(a.row[k] == j)
           result[j] = k;
     return result;
-  }
-
-  void find_depths()
-  {
-    for(int s = int(supernodes.size()) - 1; s >= 0; --s)
-      if(supernodes[s].parent != none)
-        supernodes[s].depth = supernodes[supernodes[s].parent].depth + 1;
   }
 
   // About the operations that a front takes, with what it takes to make it.
@@ -495,8 +526,6 @@ private:
     for(std::size_t s = 0; s < supernodes.size(); ++s)
     {
       supernodes[s].panel += shift;
-      for(std::size_t k = first_entry[s]; k < first_entry[s + 1]; ++k)
-        entries[k].place += shift;
       if(is_last[s])
         shift += gap;
     }

@@ -318,7 +318,7 @@ private:
     return add_triangles(0);
   }
 
-  // Of some thousand triangles at a time angles and cotangents are computed, by several threads, and then added, by one.
+  // Of some thousand triangles at a time angles and cotangents are computed, by several threads, and then added, the ones and the others by one each.
   template <int bytes>
   bool add_all_by_vectors()
   {
@@ -333,15 +333,15 @@ private:
       {
         compute(first + Index(from), first + Index(to), triangles.data() + from);
       });
-      for(Index b = 0; b < n; ++b)
-        for(int i = 0; i < Triangles::lanes; ++i)
+      if(concurrency_.is_sequential())
+        is_finite = add_blocks(first, n, triangles, true, true) && is_finite;
+      else
+        concurrency_.for_each(2, [&](int part)
         {
-          const Index h = 3 * ((first + b) * Triangles::lanes + Index(i));
-          if(triangles[b].is_plain[i] != 0)
-            add_corners(h, i, triangles[b]);
-          else
-            is_finite = add_triangle(h) && is_finite;
-        }
+          const bool is_right = add_blocks(first, n, triangles, part == 0, part == 1);
+          if(part == 0)
+            is_finite = is_right && is_finite;
+        });
     }
     return add_triangles(all * Triangles::lanes) && is_finite;
   }
@@ -370,14 +370,27 @@ private:
     triangles.compute(s[0] * l[0] * s[1], s[1] * l[1] * s[2], s[2] * l[2] * s[0]);
   }
 
+  // Adds angles, or cotangents, or both, of n blocks; returns whether the lengths are positive and finite.
   template <typename Triangles>
-  void add_corners(Index h, int i, const Triangles& triangles)
+  bool add_blocks(Index first, Index n, const std::vector<Triangles>& triangles, bool adds_angles, bool adds_cotangents)
   {
-    for(Index k = 0; k < 3; ++k)
-    {
-      angle_sum_[t_.apex(h + k)] += triangles.angle[k][i];
-      weight_[t_.edge(h + k)] += triangles.cotangent[k][i];
-    }
+    bool is_finite = true;
+    for(Index b = 0; b < n; ++b)
+      for(int i = 0; i < Triangles::lanes; ++i)
+      {
+        const Index h = 3 * ((first + b) * Triangles::lanes + Index(i));
+        if(triangles[b].is_plain[i] == 0)
+          is_finite = add_triangle(h, adds_angles, adds_cotangents) && is_finite;
+        else
+          for(Index k = 0; k < 3; ++k)
+          {
+            if(adds_angles)
+              angle_sum_[t_.apex(h + k)] += triangles[b].angle[k][i];
+            if(adds_cotangents)
+              weight_[t_.edge(h + k)] += triangles[b].cotangent[k][i];
+          }
+      }
+    return is_finite;
   }
 
   // The same for those from f on, one by one.
@@ -389,8 +402,8 @@ private:
     return is_finite;
   }
 
-  // Adds the triangle of h; returns whether its lengths are positive and finite.
-  bool add_triangle(Index h)
+  // Adds the triangle of h, or only one of both; returns whether its lengths are positive and finite.
+  bool add_triangle(Index h, bool adds_angles = true, bool adds_cotangents = true)
   {
     const std::array<NT, 3> l = sides_from(h);
     const Incircle_form<NT> triangle(l[0], l[1], l[2]);
@@ -398,11 +411,13 @@ private:
     {
       for(int k = 0; k < 3; ++k)
       {
-        add_angle(t_.apex(h + k), triangle, k);
-        weight_[t_.edge(h + k)] += cotangent(triangle, k);
+        if(adds_angles)
+          add_angle(t_.apex(h + k), triangle, k);
+        if(adds_cotangents)
+          weight_[t_.edge(h + k)] += cotangent(triangle, k);
       }
     }
-    else
+    else if(adds_angles)
     {
       broken_.push_back(Triangulation::face(h));
       add_straight_angle(t_.apex(h + longest_side(l[0], l[1], l[2])));

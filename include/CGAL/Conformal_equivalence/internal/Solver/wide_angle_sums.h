@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/internal/cold_code.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -160,22 +161,38 @@ class Wide_corner_vectors
 public:
   static constexpr int lanes = Numbers::lanes;
 
-  // The blocks of triangles from `first` to `last`, as many as there are lanes in each.
+  // The vertices of which corners are added: all, or a fourth of them, in pieces of which each has many that are neighbors.
+  struct Part
+  {
+    int number = -1;
+
+    bool is_all() const { return number < 0; }
+    bool has(std::uint32_t v) const { return is_all() || int(v / 4096 % 4) == number; }
+  };
+  static constexpr int number_of_parts = 4;
+
+  // The blocks of triangles from `first` to `last`, as many as there are lanes in each. Returns whether all corners can be added part by part.
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
-  void compute_blocks(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t first, std::uint32_t last,
+  bool compute_blocks(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t first, std::uint32_t last,
                       Wide_corner_vectors* corners)
   {
+    bool result = true;
     for(std::uint32_t b = first; b < last; ++b)
+    {
       corners[b - first].compute(t, sides, b * lanes);
+      for(int i = 0; i < lanes; ++i)
+        result = result && corners[b - first].is_plain(t, b * lanes + std::uint32_t(i), i);
+    }
+    return result;
   }
 
   CGAL_CONFORMAL_EQUIVALENCE_INLINE static
   void add_blocks(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t first, std::uint32_t last,
-                  const Wide_corner_vectors* corners, Sums& sums)
+                  const Wide_corner_vectors* corners, Part part, Sums& sums)
   {
     for(std::uint32_t b = first; b < last; ++b)
       for(int i = 0; i < lanes; ++i)
-        corners[b - first].add(t, sides, b * lanes + std::uint32_t(i), i, sums);
+        corners[b - first].add(t, sides, b * lanes + std::uint32_t(i), i, part, sums);
   }
 
   // The corners of f alone.
@@ -221,15 +238,25 @@ private:
     }
   }
 
-  // Triangle i, which is f.
-  CGAL_CONFORMAL_EQUIVALENCE_INLINE
-  void add(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t f, int i, Sums& sums) const
+  // Triangle i, which is f: are its numbers right, and its corners at three vertices?
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE bool is_plain(const Triangulation& t, std::uint32_t f, int i) const
   {
     const std::uint32_t v[] = {t.apex(3 * f), t.apex(3 * f + 1), t.apex(3 * f + 2)};
-    if(is_plain_[i] == 0 || v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
+    return is_plain_[i] != 0 && v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
+  }
+
+  CGAL_CONFORMAL_EQUIVALENCE_INLINE
+  void add(const Triangulation& t, const std::vector<Double_double>& sides, std::uint32_t f, int i, Part part, Sums& sums) const
+  {
+    const std::uint32_t v[] = {t.apex(3 * f), t.apex(3 * f + 1), t.apex(3 * f + 2)};
+    const bool is_in_part[] = {part.has(v[0]), part.has(v[1]), part.has(v[2])};
+    if(!is_in_part[0] && !is_in_part[1] && !is_in_part[2])
+      return;
+    if(!is_plain(t, f, i))
       return add_one(t, sides, f, sums);
     Wide_angle_sum<Double_double> none;
-    Wide_angle_sum<Double_double>* const sum[] = {&sums[v[0]], &sums[v[1]], &sums[v[2]], &none};
+    Wide_angle_sum<Double_double>* const sum[] = {is_in_part[0] ? &sums[v[0]] : &none, is_in_part[1] ? &sums[v[1]] : &none,
+                                                  is_in_part[2] ? &sums[v[2]] : &none, &none};
     const double x_hi[] = {x_hi_[0][i], x_hi_[1][i], x_hi_[2][i], 1}, x_lo[] = {x_lo_[0][i], x_lo_[1][i], x_lo_[2][i], 0};
     for(int k = 0; k < 4; k += lanes)
       multiply(sum + k, x_hi + k, x_lo + k, y_hi_[i], y_lo_[i], Lanes());
@@ -336,14 +363,15 @@ struct Wide_vectors
     Wide_length_vectors<bytes>::set_lengths(t, s, first, last, result);
   }
 
-  static void compute(const Triangulation& t, const Numbers& sides, Index first, Index last, Corners* corners)
+  static bool compute(const Triangulation& t, const Numbers& sides, Index first, Index last, Corners* corners)
   {
-    Corners::compute_blocks(t, sides, first, last, corners);
+    return Corners::compute_blocks(t, sides, first, last, corners);
   }
 
-  static void add(const Triangulation& t, const Numbers& sides, Index first, Index last, const Corners* corners, Sums& sums)
+  static void add(const Triangulation& t, const Numbers& sides, Index first, Index last, const Corners* corners, typename Corners::Part part,
+                  Sums& sums)
   {
-    Corners::add_blocks(t, sides, first, last, corners, sums);
+    Corners::add_blocks(t, sides, first, last, corners, part, sums);
   }
 };
 
@@ -364,15 +392,15 @@ struct Wide_vectors_with_avx2 : public Wide_vectors<32, Triangles>
   }
 
   CGAL_CONFORMAL_EQUIVALENCE_AVX2 static
-  void compute(const Triangulation& t, const Numbers& sides, Index first, Index last, Corners* corners)
+  bool compute(const Triangulation& t, const Numbers& sides, Index first, Index last, Corners* corners)
   {
-    Corners::compute_blocks(t, sides, first, last, corners);
+    return Corners::compute_blocks(t, sides, first, last, corners);
   }
 
   CGAL_CONFORMAL_EQUIVALENCE_AVX2 static
-  void add(const Triangulation& t, const Numbers& sides, Index first, Index last, const Corners* corners, Sums& sums)
+  void add(const Triangulation& t, const Numbers& sides, Index first, Index last, const Corners* corners, typename Corners::Part part, Sums& sums)
   {
-    Corners::add_blocks(t, sides, first, last, corners, sums);
+    Corners::add_blocks(t, sides, first, last, corners, part, sums);
   }
 };
 
@@ -388,7 +416,8 @@ std::vector<Wide> wide_lengths(const Intrinsic_triangulation<NT>& t, const std::
   return result;
 }
 
-// The corners of some thousand triangles at a time are computed by several threads, and added by one.
+// The corners of some thousand triangles at a time are computed by several threads, and added by several, too, each of which has vertices of its
+// own. Only where triangles need care, one thread adds them all.
 template <typename Vectors>
 void add_wide_corners_by(const Intrinsic_triangulation<double>& t, const std::vector<Double_double>& sides,
                          std::vector<Wide_angle_sum<Double_double> >& sum, const Concurrency& concurrency)
@@ -400,11 +429,17 @@ void add_wide_corners_by(const Intrinsic_triangulation<double>& t, const std::ve
   for(Index first = 0; first < all; first += many)
   {
     const Index n = (std::min)(many, all - first);
+    std::atomic<bool> are_plain(!concurrency.is_sequential());
     concurrency.for_each_range(n, [&](std::size_t from, std::size_t to)
     {
-      Vectors::compute(t, sides, first + Index(from), first + Index(to), corners.data() + from);
+      if(!Vectors::compute(t, sides, first + Index(from), first + Index(to), corners.data() + from))
+        are_plain = false;
     });
-    Vectors::add(t, sides, first, first + n, corners.data(), sum);
+    const bool has_parts = are_plain;
+    concurrency.for_each(has_parts ? Corners::number_of_parts : 1, [&](int part)
+    {
+      Vectors::add(t, sides, first, first + n, corners.data(), typename Corners::Part{has_parts ? part : -1}, sum);
+    });
   }
   for(Index f = all * Corners::lanes; f < t.number_of_faces(); ++f)
     Corners::add_one(t, sides, f, sum);

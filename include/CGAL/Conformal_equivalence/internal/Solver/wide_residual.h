@@ -37,33 +37,31 @@ template <> struct Wider_number<double> { typedef Double_double type; };
 template <typename Wide>
 Wide factor_after_step(const Wide& s, const Wide& d) { return Wide(s + s * (d / 2 + d * d / 8)); }
 
-// 2 arg z by vertex, for z of which all or none are nearly real.
+// Are there so tiny numbers of this type that their differences need an exponent apart in `double`?
 template <typename Wide>
-Scaled_vector twice_the_arguments(const std::vector<Complex_number<Wide> >& z, const Concurrency& concurrency)
+constexpr bool ranges_farther_than_double() { return std::numeric_limits<Wide>::max_exponent > 2 * std::numeric_limits<double>::max_exponent; }
+
+// 2 arg z by vertex, for z of which all or none are nearly real, and which range farther than `double`.
+template <typename Wide>
+Scaled_vector twice_the_arguments(const std::vector<Complex_number<Wide> >& z)
 {
   using std::abs;
   using std::frexp;
   using std::ldexp;
   Scaled_vector result;
   result.entries.resize(z.size());
-  concurrency.for_each_range(z.size(), [&](std::size_t first, std::size_t last)
-  {
-    for(std::size_t v = first; v < last; ++v)
-      result.entries[v] = 2 * std::atan2(static_cast<double>(z[v].im), static_cast<double>(z[v].re));
-  });
-  if constexpr(std::numeric_limits<Wide>::max_exponent > 2 * std::numeric_limits<double>::max_exponent)
-  {
-    if(result.largest_entry() > 1e-150)
-      return result;
-    Wide largest(0);
-    for(const Complex_number<Wide>& x : z)
-      largest = (std::max)(largest, Wide(abs(Wide(x.im / x.re))));
-    if(largest == 0)
-      return result;
-    (void) frexp(largest, &result.exponent);
-    for(std::size_t v = 0; v < z.size(); ++v)
-      result.entries[v] = 2 * static_cast<double>(Wide(ldexp(Wide(z[v].im / z[v].re), -result.exponent)));
-  }
+  for(std::size_t v = 0; v < z.size(); ++v)
+    result.entries[v] = 2 * std::atan2(static_cast<double>(z[v].im), static_cast<double>(z[v].re));
+  if(result.largest_entry() > 1e-150)
+    return result;
+  Wide largest(0);
+  for(const Complex_number<Wide>& x : z)
+    largest = (std::max)(largest, Wide(abs(Wide(x.im / x.re))));
+  if(largest == 0)
+    return result;
+  (void) frexp(largest, &result.exponent);
+  for(std::size_t v = 0; v < z.size(); ++v)
+    result.entries[v] = 2 * static_cast<double>(Wide(ldexp(Wide(z[v].im / z[v].re), -result.exponent)));
   return result;
 }
 
@@ -74,26 +72,44 @@ Scaled_vector differences_from_targets(const Intrinsic_triangulation<NT>& t, con
 {
   typedef Complex_number<Wide> Complex;
   const std::uint32_t n = t.number_of_vertices();
-  std::vector<Complex> z(n, Complex{Wide(1), Wide(0)});
   const auto is_prescribed = [&](std::uint32_t v) { return !t.is_isolated_vertex(v) && !conditions.is_fixed(v); };
-  concurrency.for_each_range(n, [&](std::size_t first, std::size_t last)
+  Scaled_vector result;
+  if constexpr(ranges_farther_than_double<Wide>())
   {
-    for(std::uint32_t v = std::uint32_t(first); v < last; ++v)
+    std::vector<Complex> z(n, Complex{Wide(1), Wide(0)});
+    for(std::uint32_t v = 0; v < n; ++v)
       if(is_prescribed(v))
         z[v] = sum[v].half_difference(conditions.angle_sum(v));
-  });
-  Scaled_vector result = twice_the_arguments(z, concurrency);
-  for(std::uint32_t v = 0; v < n; ++v)
-  {
-    if(!is_prescribed(v))
-      continue;
-    const double turns = sum[v].missing_turns(conditions.angle_sum(v), std::ldexp(result.entries[v], result.exponent));
-    if(turns == 0)
-      continue;
-    if(result.exponent != 0)
-      result.scale_to_one();
-    result.entries[v] += turns;
+    result = twice_the_arguments(z);
+    for(std::uint32_t v = 0; v < n; ++v)
+    {
+      if(!is_prescribed(v))
+        continue;
+      const double turns = sum[v].missing_turns(conditions.angle_sum(v), std::ldexp(result.entries[v], result.exponent));
+      if(turns == 0)
+        continue;
+      if(result.exponent != 0)
+        result.scale_to_one();
+      result.entries[v] += turns;
+    }
   }
+  else
+  {
+    result.entries.resize(n, 0.);
+    concurrency.for_each_range(n, [&](std::size_t first, std::size_t last)
+    {
+      for(std::uint32_t v = std::uint32_t(first); v < last; ++v)
+      {
+        if(!is_prescribed(v))
+          continue;
+        const Complex z = sum[v].half_difference(conditions.angle_sum(v));
+        const double difference = 2 * std::atan2(static_cast<double>(z.im), static_cast<double>(z.re));
+        const double turns = sum[v].missing_turns(conditions.angle_sum(v), difference);
+        result.entries[v] = turns == 0 ? difference : difference + turns;
+      }
+    });
+  }
+  (void) concurrency;
   return result;
 }
 
