@@ -14,8 +14,9 @@
 // c is a change of cross ratios iff its sum over the edges around each vertex inside the surface vanishes, S c = 0.
 //
 // Both ways are short. With kappa_i = d_jk - d_ij - d_ki for the corner at i of a triangle ijk, c_e is the difference of kappa in the two corners at
-// an end of e: sums around the vertices yield kappa, and d_ij = -(kappa_i + kappa_j) / 2. And S S^T, the signless Laplacian, lies between one half and
-// two times the degrees of the vertices, as x^2 + y^2 + z^2 <= (x + y)^2 + (y + z)^2 + (z + x)^2: a few iterations invert it, without a factor.
+// an end of e: sums around the vertices yield kappa, and d_ij = -(kappa_i + kappa_j) / 2. And S S^T, the signless Laplacian, lies between one half
+// of the degrees of the vertices and two times these, as x^2 + y^2 + z^2 <= (x + y)^2 + (y + z)^2 + (z + x)^2: a few iterations invert it, without
+// a factor.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_CROSS_RATIO_CHANGES_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_CROSS_RATIO_CHANGES_H
