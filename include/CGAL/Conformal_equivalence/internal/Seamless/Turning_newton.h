@@ -11,7 +11,7 @@
 // judged together.
 //
 // Most of the time goes into the linearized equations, which have a solution for each loop: they serve for further steps as long as these bring
-// enough and no edge is flipped. As long as the turnings are far from their targets, a step also leads back towards the conformal class given: so what
+// enough and no edge is flipped. As long as the turnings are far from their targets, a step also leads back towards the class given: so what
 // has been done to it in all, along a way that bends, is close to the least.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_SEAMLESS_TURNING_NEWTON_H
