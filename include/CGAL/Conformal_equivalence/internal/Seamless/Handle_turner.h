@@ -337,11 +337,23 @@ private:
 
   Turning_metric find(const std::vector<long>& quanta, bool may_give_up, Turned_handles& handles) const
   {
-    const std::size_t soon = 60; // steps, of which four to twelve are usual, most of them with a single trial
+    const double much = 1.4; // where little growth leads nowhere this may lead elsewhere
     Turning_newton_options options = newton_options();
-    options.maximum_number_of_steps = (std::min)(options_.number_of_iterations, soon);
-    options.maximum_number_of_trials = may_give_up ? soon : 4 * soon;
     options.may_give_up = may_give_up;
+    Turning_metric result = find(quanta, options, handles);
+    if(!may_give_up && result.status == Status::ITERATIONS_EXHAUSTED)
+    {
+      options.growth_on_return = much;
+      result = find(quanta, options, handles);
+    }
+    return result;
+  }
+
+  Turning_metric find(const std::vector<long>& quanta, Turning_newton_options options, Turned_handles& handles) const
+  {
+    const std::size_t soon = 60; // steps, of which four to twelve are usual, most of them with a single trial
+    options.maximum_number_of_steps = (std::min)(options_.number_of_iterations, soon);
+    options.maximum_number_of_trials = options.may_give_up ? soon : 4 * soon;
     const Turning_metric& start = handles.start;
     Turning_metric result = Turning_newton<NT>(start.triangulation, start.loops, targets(quanta), options, handles.equations).run();
     handles.number_of_steps += result.number_of_steps;

@@ -45,6 +45,7 @@ struct Turning_newton_options
   double tolerance = 1e-12;           // radians
   std::size_t maximum_number_of_steps = 200;
   std::size_t maximum_number_of_trials = 1000; // each of which takes about as long as a conformal solve; a good step takes one
+  double growth_on_return = 1.02;     // of the residual, at most, on the way back towards the conformal class given
   bool may_give_up = false;           // as soon as steps have become so small that another target is the better choice
   Any_visitor visitor;                // is told the steps and may stop them
   Factorization_maker make_factorization = [] { return internal::make_factorization<Default_solver_traits>(); };
@@ -211,13 +212,13 @@ private:
   // \return `false` if nothing is won
   bool return_along(const Eigen::VectorXd& change)
   {
-    const double least = 0.1, little_more = 1.02, less = 0.95;
+    const double least = 0.1, less = 0.95;
     for(double part = 1; part >= least && bool(metric_) && !has_no_trials_left(); part /= 2)
     {
       ++number_of_trials_;
       Turning_metric trial = metric_;
       if(change_lengths(trial, part * change) && restore_angles(trial) && trial.departure().norm() < less * metric_.departure().norm()
-         && take_if_below(little_more * residual_.norm(), trial))
+         && take_if_below(options_.growth_on_return * residual_.norm(), trial))
         return true;
     }
     return false;
