@@ -586,7 +586,7 @@ BOOST_AUTO_TEST_CASE(no_metric_is_not_one_out_of_range)
   BOOST_TEST(none.log_scale_factors.empty());
   BOOST_TEST(none.scale_factors.empty());
   BOOST_TEST(none.amount > close_in_double);
-  BOOST_TEST(none.statistics.largest_u - none.statistics.least_u > 600); // more than squares of numbers of `double` do
+  BOOST_TEST(none.statistics.largest_u - none.statistics.least_u > 100); // what the message of the program takes for far
   const auto metric = CE::compute_conformal_metric(t, conditions, CGAL::parameters::retriangulation(Retriangulation::WHEN_NEEDED));
   BOOST_CHECK(CE::is_success(metric.status));
 }
