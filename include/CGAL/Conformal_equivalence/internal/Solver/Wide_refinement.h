@@ -12,6 +12,7 @@
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Abstract_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
@@ -188,7 +189,8 @@ private:
   // Was `double` too short to come near to the solution? Then angles of needles are known too little in it to tell which edges are to be flipped.
   bool may_be_resolved_by_flips(const Metric& result) const
   {
-    return result.status == Status::ITERATIONS_EXHAUSTED && result.statistics.residual > close_in_double && bounds_.empty() && energy_.has_flips();
+    return result.status == Status::ITERATIONS_EXHAUSTED && result.statistics.residual > close_in_double && bounds_.empty() && energy_.has_flips()
+        && !(has_range_of_double<NT>() && energy_.ranges_far());
   }
 
   // Newton's method in the wide type, with flips, from the factors `start` on: for metrics with needles of which the angles go from 0 to pi while
