@@ -396,6 +396,7 @@ private:
     if(result.status == Status::OK)
       run_newton(energy, targets(conditions), options, newton_options(options, bounds, may_give_up), bounds, start.is_evaluated, u, result);
     const bool is_found = is_solution(result);
+    const double residual_in_double = result.statistics.residual;
     if(result.status == Status::OK)
     {
       Wide_refinement<NT> last_steps(energy, linear_, scales_, conditions, bounds, options.gradient_tolerance);
@@ -410,7 +411,7 @@ private:
     if(options.is_estimate && result.status == Status::ITERATIONS_EXHAUSTED) // the last u may still tell what is to be changed
       Wide_refinement<NT>::begin_at(conditions, u, result.scale_factors);
     if(leaves_range(energy) && (result.status == Status::ITERATIONS_EXHAUSTED || !are_factors(result.scale_factors)))
-      tell_range(u, is_found, result);
+      tell_range(u, is_found, residual_in_double, result);
     else if(is_success(result.status) || !result.scale_factors.empty())
       keep(result.scale_factors, conditions, u, result);
     result.statistics.number_of_factorizations = linear_.number_of_factorizations() - factorizations_before;
@@ -484,7 +485,7 @@ private:
 
   // What `NT` cannot hold. If Newton's method has found the metric, u by itself is it nevertheless.
   CGAL_CONFORMAL_EQUIVALENCE_COLD
-  static void tell_range(const Vertex_vector& u, bool is_found, Metric& result)
+  static void tell_range(const Vertex_vector& u, bool is_found, double residual_in_double, Metric& result)
   {
     tell_extremes(u, result.statistics);
     result.scale_factors.clear();
@@ -493,6 +494,7 @@ private:
     if(!is_found)
       return;
     result.status = Status::SCALE_OUT_OF_RANGE;
+    result.statistics.residual = residual_in_double;
     result.amount = result.statistics.largest_u - result.statistics.least_u;
     result.faces.clear();
     for(const double x : u)
