@@ -424,7 +424,7 @@ BOOST_AUTO_TEST_CASE(target_disk_of_long_strips)
     const std::string input = write_off(folder, "strip.off", testing::strip(width == 1 ? 1000 : 1200, width));
     const Run refused = run({input, "-o", folder / "i.obj", "--target", "disk"});
     BOOST_TEST(refused.status == 1);
-    BOOST_TEST(contains(refused.err, "the scale factors leave the range of the number type: u ranges over "));
+    BOOST_TEST(contains(refused.err, "there is a metric, but its scale factors leave the range of the number type: u ranges over "));
     const std::string option = "--precision ", begin = "(" + option;
     BOOST_REQUIRE(contains(refused.err, begin));
     const int bits = std::stoi(refused.err.substr(refused.err.find(begin) + begin.size()));

@@ -486,6 +486,8 @@ CE::Conformal_metric<NT> opened_strip(std::uint32_t n, CE::Intrinsic_triangulati
   return CE::compute_conformal_metric(t, conditions, CGAL::parameters::gradient_tolerance(tolerance));
 }
 
+const double close_in_double = 1e-6; // radians: what `SCALE_OUT_OF_RANGE` promises of u
+
 // Where e^{u/2} is in the range of `double`, and far beyond it. There `double` says so, and tells u; more digits, and exponents, find the whole
 // metric.
 BOOST_AUTO_TEST_CASE(u_beyond_the_range_of_double)
@@ -497,6 +499,7 @@ BOOST_AUTO_TEST_CASE(u_beyond_the_range_of_double)
     const auto metric = opened_strip(n, t, 1e-12);
     BOOST_CHECK(metric.status == (n == 100 ? CE::Status::OK : CE::Status::SCALE_OUT_OF_RANGE));
     BOOST_REQUIRE_EQUAL(metric.log_scale_factors.size(), t.number_of_vertices());
+    BOOST_TEST(metric.statistics.residual <= close_in_double);
     const auto wide = opened_strip(n, testing::widened<Number>(t), 1e-40);
     BOOST_REQUIRE(wide.status == CE::Status::OK);
     CE::Conformal_conditions<Number> conditions(wide.triangulation);
@@ -570,6 +573,22 @@ BOOST_AUTO_TEST_CASE(needles_of_a_steep_terrain)
       on_double.fix_log_scale_factor(v, Number(0));
   BOOST_TEST(measured_residual(metric, on_double) <= Number(1e-12));
   BOOST_TEST(metric.statistics.largest_u - metric.statistics.least_u > 50); // e^50 between the lengths of neighbors and the farthest
+}
+
+// Much steeper ones have needles that leave `double` no metric at all, which is not the same as one that is out of its range: there is no u, and the
+// status says so, with what is left to do, and how far u has come to range. On the triangles given there is a metric.
+BOOST_AUTO_TEST_CASE(no_metric_is_not_one_out_of_range)
+{
+  const auto t = testing::triangulation(terrain(14, 1e5));
+  const CE::Conformal_conditions<double> conditions(t);
+  const auto none = CE::compute_conformal_metric(t, conditions, CGAL::parameters::retriangulation(Retriangulation::ALWAYS));
+  BOOST_CHECK(none.status == CE::Status::ITERATIONS_EXHAUSTED);
+  BOOST_TEST(none.log_scale_factors.empty());
+  BOOST_TEST(none.scale_factors.empty());
+  BOOST_TEST(none.amount > close_in_double);
+  BOOST_TEST(none.statistics.largest_u - none.statistics.least_u > 100); // what the message of the program takes for far
+  const auto metric = CE::compute_conformal_metric(t, conditions, CGAL::parameters::retriangulation(Retriangulation::WHEN_NEEDED));
+  BOOST_CHECK(CE::is_success(metric.status));
 }
 
 // Newton's method with all of its linear algebra in the wide type.

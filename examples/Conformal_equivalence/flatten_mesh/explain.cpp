@@ -161,12 +161,17 @@ std::string advice_to_converge(const Options& options, const Report& report)
     options_that_help.push_back("--max-iterations above " + std::to_string(options.maximum_number_of_iterations));
   if(! options.local_repair && options.retriangulation == CE::Retriangulation::WHEN_NEEDED)
     options_that_help.push_back("--retriangulate always");
+  const double range_of_u = report.statistics.largest_u - report.statistics.least_u, far_range = 100;
+  const bool has_gone_far = report.status == CE::Status::ITERATIONS_EXHAUSTED && range_of_u > far_range;
+  if(has_gone_far && ! options.local_repair && options.retriangulation == CE::Retriangulation::ALWAYS)
+    options_that_help.push_back("--retriangulate when-needed, which keeps the triangles of steep surfaces,");
   if(! is_computed_in_double_only(options))
     options_that_help.push_back(options.precision_in_bits == bits_of_double
                                 ? "--precision 200" : "--precision above " + std::to_string(options.precision_in_bits));
   if(options.mollification == 0)
     options_that_help.push_back("--mollify 1e-4");
-  const std::string flipping = keeps_triangulation(options) ? "--retriangulate never; other values flip edges" : "",
+  const std::string flipping = has_gone_far ? text("u has come to range over ", range_of_u)
+                             : keeps_triangulation(options) ? "--retriangulate never; other values flip edges" : "",
                     others = options_that_help.empty() ? "" : list_of(options_that_help) + " may help";
   return flipping.empty() && others.empty() ? "" : " (" + flipping + (flipping.empty() || others.empty() ? "" : "; ") + others + ")";
 }

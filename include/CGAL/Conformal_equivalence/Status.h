@@ -35,9 +35,9 @@ enum class Status
   /// `vertices` lack a condition that the function needs; or the closed surfaces of `faces`, of a genus other than 1, lack cones
   MISSING_CONDITION,
   SINGULAR_PROBLEM,      ///< the linear system could not be factorized
-  ITERATIONS_EXHAUSTED,  ///< not converged; `amount` is the residual (radians), `faces` the triangles broken at that point
-  /// u, which ranges over `amount`, leaves the range of the number type, or that of points in it: a number type with more digits, and a wider range
-  /// of exponents, finds it
+  ITERATIONS_EXHAUSTED,  ///< not converged, no metric; `amount` is the residual (radians), `faces` the triangles broken at that point
+  /// the metric was found, but u, which ranges over `amount`, leaves the range of the number type, or that of points in it: a number type with more
+  /// digits, and a wider range of exponents, holds it
   SCALE_OUT_OF_RANGE,
   DEGENERATE_METRIC,     ///< the minimizer violates the triangle inequality in `faces`; if edges were flipped, in triangles at `vertices`
   NOT_INJECTIVE,         ///< the layout flips `faces`, or its border crosses itself
@@ -92,7 +92,8 @@ constexpr Status_description description(Status status)
     case Status::MISSING_CONDITION:     return {"a condition is missing", SMP::ERROR_BORDER_TOO_SHORT};
     case Status::SINGULAR_PROBLEM:      return {"the linear system cannot be factorized", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM};
     case Status::ITERATIONS_EXHAUSTED:  return {"the iteration did not converge", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM};
-    case Status::SCALE_OUT_OF_RANGE:    return {"the scale factors leave the range of the number type", SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM};
+    case Status::SCALE_OUT_OF_RANGE:    return {"there is a metric, but its scale factors leave the range of the number type",
+                                                SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM};
     case Status::DEGENERATE_METRIC:     return {"the metric violates the triangle inequality", SMP::ERROR_NO_1_TO_1_MAPPING};
     case Status::NOT_INJECTIVE:         return {"the map is not injective", SMP::ERROR_NO_1_TO_1_MAPPING};
     case Status::SEAM_LEAVES_NO_DISK:   return {"the seam does not cut the surface into a disk", SMP::ERROR_NO_TOPOLOGICAL_DISC};

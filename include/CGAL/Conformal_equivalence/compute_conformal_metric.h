@@ -137,10 +137,12 @@ public:
   ///    of fixed or bounded u): the conditions have no solution, nothing was computed;
   ///  - `DEGENERATE_METRIC`: the minimizer was found, but is no metric: `faces` violate the
   ///    triangle inequality, decided exactly; or, with `Retriangulation::ALWAYS`, there are `faces` among those given that do;
-  ///  - `SCALE_OUT_OF_RANGE` (`amount`: largest less least u): u leaves the range of `NT`. If `log_scale_factors` is not empty, it is
-  ///    the solution, found in `double`, and all that there is of it; a type with a wider range of exponents finds the rest;
-  ///  - `ITERATIONS_EXHAUSTED` (`amount`: the residual; `faces`: the triangles broken there),
-  ///    `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`, `OUT_OF_MEMORY`.
+  ///  - `SCALE_OUT_OF_RANGE` (`amount`: largest less least u): the metric was found, but leaves the range of `NT`. `log_scale_factors`, found in
+  ///    `double`, are all that there is of it: their angle sums are right to `statistics.residual`, which is at most 1e-6 radians; a type with a
+  ///    wider range of exponents finds the rest;
+  ///  - `ITERATIONS_EXHAUSTED` (`amount`: the residual; `faces`: the triangles broken there): no metric was found. Where numbers ranged far,
+  ///    `statistics` tell over which u the last step ranged;
+  ///  - `SINGULAR_PROBLEM`, `STOPPED_BY_VISITOR`, `OUT_OF_MEMORY`.
   template <typename NamedParameters = parameters::Default_named_parameters>
   Metric solve(const Conformal_conditions<NT>& conditions, const NamedParameters& np = parameters::default_values()) &
   {

@@ -197,7 +197,6 @@ private:
   {
     return result.status == Status::DEGENERATE_METRIC || result.status == Status::ITERATIONS_EXHAUSTED
         || result.status == Status::SINGULAR_PROBLEM
-        || (result.status == Status::SCALE_OUT_OF_RANGE && result.log_scale_factors.empty())
         || (result.status == Status::ANGLE_OUT_OF_RANGE && result.amount > 0);
   }
 
@@ -228,6 +227,9 @@ private:
     result.number_of_iterations = options.number_of_iterations;
     result.strategy = options.newton_strategy;
     result.may_give_up = may_give_up;
+    const double square_roots_in_range = 600; // e^{u / 2}, and lengths for it, leave room for products and for digits below
+    if(has_range_of_double<NT>())
+      result.largest_u = square_roots_in_range;
     return result;
   }
 
@@ -393,8 +395,9 @@ private:
     result.status = start.has_factor ? Status::OK : Status::SINGULAR_PROBLEM;
     if(result.status == Status::OK)
       run_newton(energy, targets(conditions), options, newton_options(options, bounds, may_give_up), bounds, start.is_evaluated, u, result);
-    const bool is_found = result.status == Status::OK;
-    if(is_found)
+    const bool is_found = is_solution(result);
+    const double residual_in_double = result.statistics.residual;
+    if(result.status == Status::OK)
     {
       Wide_refinement<NT> last_steps(energy, linear_, scales_, conditions, bounds, options.gradient_tolerance);
       last_steps.set_visitor(options.visitor);
@@ -408,7 +411,7 @@ private:
     if(options.is_estimate && result.status == Status::ITERATIONS_EXHAUSTED) // the last u may still tell what is to be changed
       Wide_refinement<NT>::begin_at(conditions, u, result.scale_factors);
     if(leaves_range(energy) && (result.status == Status::ITERATIONS_EXHAUSTED || !are_factors(result.scale_factors)))
-      tell_range(u, is_found, result);
+      tell_range(u, is_found, residual_in_double, result);
     else if(is_success(result.status) || !result.scale_factors.empty())
       keep(result.scale_factors, conditions, u, result);
     result.statistics.number_of_factorizations = linear_.number_of_factorizations() - factorizations_before;
@@ -425,7 +428,8 @@ private:
     has_given_up_ = newton.has_given_up();
     if(newton.has_come_near())
       foreseen_ = u;
-    if(result.status != Status::OK || newton_options.tolerance <= options.gradient_tolerance || !leaves_range(energy))
+    has_left_needles_ = newton.has_left_needles();
+    if(result.status != Status::OK || has_left_needles_ || newton_options.tolerance <= options.gradient_tolerance || !leaves_range(energy))
       return;
     newton_options.tolerance = options.gradient_tolerance;
     result.status = Newton_method(energy, linear_, target, newton_options, result.statistics, options.visitor, bounds)(u, true);
@@ -472,18 +476,29 @@ private:
     return std::all_of(s.begin(), s.end(), [](const Wide_number& x) { return x > 0 && std::isnormal(static_cast<double>(x)); });
   }
 
-  // What `NT` cannot hold. If Newton's method has come to its end, u by itself is the metric nevertheless.
+  // Is u, in `double`, the solution? It may also be as near to it as rounding allows, which among needles says nothing.
+  bool is_solution(const Metric& result) const
+  {
+    const double close = 1e-6; // radians: more than rounding leaves where lengths are known
+    return result.status == Status::OK && !has_left_needles_ && result.statistics.residual <= close;
+  }
+
+  // What `NT` cannot hold. If Newton's method has found the metric, u by itself is it nevertheless.
   CGAL_CONFORMAL_EQUIVALENCE_COLD
-  static void tell_range(const Vertex_vector& u, bool is_found, Metric& result)
+  static void tell_range(const Vertex_vector& u, bool is_found, double residual_in_double, Metric& result)
   {
     tell_extremes(u, result.statistics);
+    result.scale_factors.clear();
+    if(is_success(result.status))
+      result.status = Status::ITERATIONS_EXHAUSTED;
+    if(!is_found)
+      return;
     result.status = Status::SCALE_OUT_OF_RANGE;
+    result.statistics.residual = residual_in_double;
     result.amount = result.statistics.largest_u - result.statistics.least_u;
     result.faces.clear();
-    result.scale_factors.clear();
-    if(is_found)
-      for(const double x : u)
-        result.log_scale_factors.push_back(NT(x));
+    for(const double x : u)
+      result.log_scale_factors.push_back(NT(x));
   }
 
   static void tell_extremes(const Vertex_vector& u, Statistics& statistics)
@@ -546,6 +561,7 @@ private:
   Vertex_vector last_u_;
   Vertex_vector foreseen_; // where an attempt was given up on the way to its end, if any was
   bool has_given_up_ = false; // the last attempt, as triangles would have remained broken
+  bool has_left_needles_ = false; // the last attempt, to the last steps
   bool linear_has_flips_ = false; // the edges of `linear_` are not those of `triangulation_`
 };
 

@@ -12,6 +12,7 @@
 
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/Scaled_number.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Fixed_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
@@ -122,7 +123,7 @@ public:
     const Timer timer(seconds_);
     if(!flip(s, all_edges(t_)))
       return false;
-    Base::evaluate(u);
+    move_to(u);
     return true;
   }
 
@@ -162,6 +163,8 @@ private:
   {
     ++number_of_probes_;
     this->set_log_scale(v, u);
+    if(!factors_.empty())
+      factors_[v] = this->scale_with_exponent(v);
     std::vector<Index> candidates;
     t_.for_each_outgoing(v, [&](Index h)
     {
@@ -179,14 +182,14 @@ private:
 
   bool flip_at(const std::vector<double>& u)
   {
-    bool is_finite = Base::evaluate(u);
+    bool is_finite = move_to(u);
     const Timer timer(seconds_);
     for(int round = 0; is_finite && round < 100; ++round)
     {
       std::vector<Index> candidates = suspects();
       if(candidates.empty() || !flip_here(std::move(candidates), visitor_))
         break;
-      is_finite = Base::evaluate(u);
+      is_finite = move_to(u);
     }
     return is_finite;
   }
@@ -205,11 +208,20 @@ private:
     return result;
   }
 
-  // At the factors of now.
+  bool move_to(const std::vector<double>& u)
+  {
+    factors_.clear();
+    return Base::evaluate(u);
+  }
+
+  // At the factors of now. Where they range far, those of all vertices are not made again for each that moves by itself.
   bool flip_here(std::vector<Index> candidates, const Any_visitor& visitor = Any_visitor())
   {
-    return this->ranges_far() ? flip(this->scales_with_exponents(), std::move(candidates), visitor)
-                              : flip(this->scales(), std::move(candidates), visitor);
+    if(!this->ranges_far())
+      return flip(this->scales(), std::move(candidates), visitor);
+    if(factors_.empty())
+      factors_ = this->scales_with_exponents();
+    return flip(factors_, std::move(candidates), visitor);
   }
 
   // Returns whether anything was flipped.
@@ -236,6 +248,7 @@ private:
   std::unique_ptr<Delaunay_flipper<Length> > flipper_;
   Flip_observer<Length>& observer_;
   Any_visitor visitor_;
+  std::vector<Scaled_number<double> > factors_; // those of now, with exponents apart, once they were needed
   double seconds_ = 0;
   std::size_t number_of_probes_ = 0;
   bool is_worn_ = false; // some length is known less well than to rounding

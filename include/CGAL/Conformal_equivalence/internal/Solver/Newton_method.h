@@ -46,6 +46,7 @@ struct Newton_options
   std::size_t number_of_iterations = 100;
   Newton_strategy strategy = Newton_strategy::LINE_SEARCH;
   bool may_give_up = false; // as soon as it is foreseen that triangles remain broken: there is another way
+  double largest_u = std::numeric_limits<double>::infinity(); // beyond which there are no last steps in a wider type
 };
 
 class Newton_method
@@ -76,10 +77,12 @@ public:
         return Status::OK;
       if(is_careful() && is_stuck_at_floor(iteration, size, u))
         return Status::OK;
+      if(is_dazzled_by_needles(iteration, size, u))
+        return leave_to_needles();
       if(!visitor_.go_further())
         return Status::STOPPED_BY_VISITOR;
       if(iteration == options_.number_of_iterations || (is_careful() && (has_stopped() || eliminate_.is_in_vain())))
-        return is_left_to_needles(size, u) ? Status::OK : Status::ITERATIONS_EXHAUSTED;
+        return is_left_to_needles(size, u) ? leave_to_needles() : Status::ITERATIONS_EXHAUSTED;
       if(is_crawling(iteration, u))
         return Status::ITERATIONS_EXHAUSTED;
       if(!solver_.has_factor() && !solver_.factorize(energy_.weights()))
@@ -88,8 +91,10 @@ public:
                                                                             : trust_region_step(u);
       if(has_given_up_)
         return Status::ITERATIONS_EXHAUSTED;
+      if(!stepped && size <= 10 * rounding_floor())
+        return Status::OK;
       if(!stepped)
-        return size <= 10 * rounding_floor() || is_left_to_needles(size, u) ? Status::OK : Status::ITERATIONS_EXHAUSTED;
+        return is_left_to_needles(size, u) ? leave_to_needles() : Status::ITERATIONS_EXHAUSTED;
       ++statistics_.number_of_iterations;
       if(active_set_.settle(u))
         evaluate(u, residual_);
@@ -101,6 +106,9 @@ public:
 
   // Was it foreseen, and is u on the way to it, not astray? Then another way can go on from there.
   bool has_come_near() const { return has_given_up_ && statistics_.residual < 0.5 * statistics_.residuals.front(); }
+
+  // Is u no solution yet, as it is up to the wider type to tell the angles of needles?
+  bool has_left_needles() const { return has_left_needles_; }
 
 private:
   // Where edges are flipped on the way steps are bounded. (Where bounds are active, residuals may grow on the way.)
@@ -141,7 +149,20 @@ private:
   bool is_left_to_needles(double size, const Vertex_vector& u)
   {
     const double most = 4; // radians: pi, at a needle of which the angles are not to be told, and a little more
-    return is_careful() && !energy_.ranges_far() && is_at_floor(size, u, most);
+    return is_careful() && largest_entry(u) <= options_.largest_u && is_at_floor(size, u, most);
+  }
+
+  // Where lengths range far, needles may be so thin that steps go to and fro among angles that cannot be told: then the end is near.
+  bool is_dazzled_by_needles(std::size_t iteration, double size, const Vertex_vector& u)
+  {
+    const double dazzling = 0.01; // radians
+    return energy_.ranges_far() && iteration >= last_gain_ + 5 && is_left_to_needles(size, u) && floor_ >= dazzling;
+  }
+
+  Status leave_to_needles()
+  {
+    has_left_needles_ = true;
+    return Status::OK;
   }
 
   // r at u; false if u is out of the range of double.
@@ -257,6 +278,14 @@ private:
     return statistics_.residuals.size() > last_gain_ + 10 && statistics_.residual > 0.1 ? 0 : 0.1;
   }
 
+  // Is a step so long as the Hessian is singular? Where edges are flipped on the way steps are bounded, and long where u has far to go; what is
+  // broken there are needles that rounding has broken, or triangles at a border that is kept, and a trust region would be lost among them.
+  bool is_useless(const Vertex_vector& d) const
+  {
+    const double longest_step = 10; // in u
+    return !is_careful() && !energy_.broken_faces().empty() && !(largest_entry(d) <= longest_step);
+  }
+
   // Goes along d as far as the derivative of E has not become so much as half as
   // large upwards as it was downwards at the start. Where triangles are broken the
   // Hessian may be singular, and d useless; from then on, until no triangle
@@ -267,8 +296,7 @@ private:
     if(is_lost_)
       return trust_region_step(u);
     Vertex_vector d;
-    const double longest_step = 10; // in u
-    if(!newton_direction(u, d) || (!energy_.broken_faces().empty() && !(largest_entry(d) <= longest_step)))
+    if(!newton_direction(u, d) || is_useless(d))
       return begin_trust_region(u);
     has_given_up_ = has_given_up_ || is_hopeless(d);
     if(has_given_up_)
@@ -382,7 +410,7 @@ private:
   int short_steps_ = 0;               // that were cut to the reach, one after the other
   Vertex_vector landmark_;  // u where the trust region was some steps ago
   std::size_t landmark_iteration_ = 0;
-  bool has_given_up_ = false;
+  bool has_given_up_ = false, has_left_needles_ = false;
   bool is_lost_ = false; // line search has failed among broken triangles
 };
 

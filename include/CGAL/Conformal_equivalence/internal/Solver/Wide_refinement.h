@@ -12,6 +12,7 @@
 #include <CGAL/Conformal_equivalence/Statistics.h>
 #include <CGAL/Conformal_equivalence/Status.h>
 #include <CGAL/Conformal_equivalence/internal/Any_visitor.h>
+#include <CGAL/Conformal_equivalence/internal/Numbers/number_conversions.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Abstract_energy.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Component_scales.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
@@ -167,7 +168,7 @@ private:
         if(linear_.factorize(wide_weights))
           continue;
       }
-      if(size <= result.statistics.residual_floor && tolerance_ >= std::numeric_limits<double>::epsilon())
+      if(size <= known_rounding(result) && tolerance_ >= std::numeric_limits<double>::epsilon())
         break;
       arithmetic = Refinement_arithmetic::WIDE;
     }
@@ -179,16 +180,17 @@ private:
     if(size <= floor())
       result.statistics.residual_floor = rounded_up(floor());
     result.amount = result.statistics.residual;
-    result.status = result.statistics.residual <= result.statistics.residual_floor ? Status::CONVERGED_TO_ROUNDING
-                                                                                   : Status::ITERATIONS_EXHAUSTED;
+    result.status = result.statistics.residual <= known_rounding(result) ? Status::CONVERGED_TO_ROUNDING : Status::ITERATIONS_EXHAUSTED;
   }
+
+  // What rounding may leave. Among needles it may be any angle: then it says nothing about what is left.
+  static double known_rounding(const Metric& result) { return (std::min)(result.statistics.residual_floor, close_in_double); }
 
   // Was `double` too short to come near to the solution? Then angles of needles are known too little in it to tell which edges are to be flipped.
   bool may_be_resolved_by_flips(const Metric& result) const
   {
-    const double close = 1e-6; // what `double` leaves where there are no such needles
-    return result.status == Status::ITERATIONS_EXHAUSTED && result.statistics.residual > close && bounds_.empty() && energy_.has_flips()
-        && !energy_.ranges_far();
+    return result.status == Status::ITERATIONS_EXHAUSTED && result.statistics.residual > close_in_double && bounds_.empty() && energy_.has_flips()
+        && !(has_range_of_double<NT>() && energy_.ranges_far());
   }
 
   // Newton's method in the wide type, with flips, from the factors `start` on: for metrics with needles of which the angles go from 0 to pi while
@@ -198,7 +200,7 @@ private:
   {
     const int most_steps = 100, a_while = 20; // steps
     const double worth_going_on = 0.9;        // of the residual a while ago
-    const Wide_number close(1e-6);
+    const Wide_number close(close_in_double);
     std::vector<Wide_number>& s = result.scale_factors;
     s = start;
     flip_at(s, u);
@@ -370,6 +372,8 @@ private:
     }
     return is_changed;
   }
+
+  static constexpr double close_in_double = 1e-6; // radians: what `double` leaves where there are no such needles
 
   Refinable_energy<NT>& energy_;
   Laplacian_solver& linear_;

@@ -163,10 +163,12 @@ public:
   std::vector<Scaled_number<NT> > scales_with_exponents() const
   {
     std::vector<Scaled_number<NT> > result;
-    for(std::size_t v = 0; v < scale_.size(); ++v)
-      result.emplace_back(scale_[v], exponent_of(v, scale_exponent_));
+    for(Index v = 0; v < scale_.size(); ++v)
+      result.push_back(scale_with_exponent(v));
     return result;
   }
+
+  Scaled_number<NT> scale_with_exponent(Index v) const { return Scaled_number<NT>(scale_[v], exponent_of(v, scale_exponent_)); }
 
   // The scaled sides of the face `f`, in the order of its halfedges, up to a power of two for all three.
   std::array<NT, 3> sides_of(Index f) const { return sides_from(3 * f); }
