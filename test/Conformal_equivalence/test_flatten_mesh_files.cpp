@@ -748,6 +748,21 @@ BOOST_AUTO_TEST_CASE(colours_of_vertices_are_kept)
   BOOST_TEST(run({folder / "o.obj", "-o", folder / "p.obj"}).status == 0);
   BOOST_TEST(lines_with("v", content(folder / "p.obj")) == coloured);
 
+  // in PLY as bytes, of which these are multiples
+  std::string in_bytes = coloured;
+  for(const auto& [from, to] : std::vector<std::pair<std::string, std::string> >{{"0.5", "0.6"}, {"0.25 0.125", "0.2 0.4"}, {"0.1 ", "0.8 "},
+                                                                                 {"1 1 0.1", "1 1 0.1 1 1 1"}, {"0 1 0\n", "0 1 0 1 1 1\n"}})
+    in_bytes = replaced(in_bytes, from, to);
+  std::string given;
+  std::istringstream vertices(in_bytes);
+  for(std::string line; std::getline(vertices, line);)
+    given += "v " + line + '\n';
+  BOOST_TEST(run({folder.write("c.obj", given + faces), "-o", folder / "c.ply"}).err == "");
+  BOOST_TEST(run({folder / "c.ply", "-o", folder / "d.obj"}).err == "");
+  BOOST_TEST(lines_with("v", content(folder / "d.obj")) == in_bytes);
+  const Run off = run({folder.write("c.off", "COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n0 1 0 1 0 0 1\n3 0 1 2\n"), "-o", folder / "e.obj"});
+  BOOST_TEST(contains(off.err, "skipped the colours of vertices"));
+
   const testing::Soup sphere = spiky_icosahedron();
   std::string obj;
   for(const auto& p : sphere.points)

@@ -77,15 +77,16 @@ std::string explanation(const Given_surface& given, const Uniformization& u)
 {
   const std::string faces = list_of_elements("face", "faces", u.faces, [&](std::uint32_t f) { return given.face(Face(f)); }),
                     vertices = list_of_elements("vertex", "vertices", u.vertices, [&](std::uint32_t v) { return given.vertex(Vertex(v)); });
+  const double amount = u.is_doubled ? u.amount / 2 : u.amount; // of areas and curvatures: those of the mesh
   switch(u.status)
   {
     case CE::Status::WRONG_TOPOLOGY:
       return "a surface whose Euler characteristic is not negative has no hyperbolic metric without cones (borders become geodesics), whose "
-             "curvatures (360 - angle) must sum up to more than " + text(in_degrees(u.amount), " degrees (--cones FILE)") + faces;
+             "curvatures (360 - angle) must sum up to more than " + text(in_degrees(amount), " degrees (--cones FILE)") + faces;
     case CE::Status::GAUSS_BONNET_VIOLATED:
     case CE::Status::NO_ANGLE_LEFT:
       return text("there is no hyperbolic metric with these angles, which leave it no area: by the Gauss-Bonnet formula they must be smaller by more "
-                  "than ", in_degrees(-u.amount), " degrees in all", u.is_doubled ? " (of the double of the mesh)" : "") + vertices;
+                  "than ", in_degrees(0 - amount), " degrees in all") + vertices;
     case CE::Status::ANGLE_OUT_OF_RANGE:
       return text(CE::message(u.status), ": ", in_degrees(u.amount), " degrees", vertices);
     case CE::Status::ITERATIONS_EXHAUSTED:

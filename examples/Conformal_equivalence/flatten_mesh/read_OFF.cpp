@@ -12,21 +12,21 @@ namespace flattening {
 
 namespace {
 
-// Passes the key word, e.g. OFF, COFF, NOFF; returns whether coordinates are homogeneous.
-bool read_off_key_word(Scanner& in)
+// Passes the key word, e.g. OFF, COFF, NOFF, and returns it: C announces colours, 4 homogeneous coordinates; none if it is absent.
+std::string_view read_off_key_word(Scanner& in)
 {
   Scanner after(in);
   const std::string_view key = after.word();
   double number;
   if(Scanner::parse(key, number))
-    return false; // the key word may be absent
+    return ""; // the key word may be absent
   if(key.size() < 3 || key.substr(key.size() - 3) != "OFF"
      || key.substr(0, key.size() - 3).find_first_not_of("STCN4") != std::string_view::npos)
     in.error("an OFF file begins with 'OFF', not with '", Scanner::printable(key), "'");
   in = after;
   if(Scanner(in).word() == "BINARY")
     in.error("binary OFF is not supported; convert it to text");
-  return key.find('4') != std::string_view::npos;
+  return key;
 }
 
 // Normals, colors and texture coordinates are skipped, but nothing that is no number. Returns how many they are.
@@ -87,14 +87,17 @@ void read_off_faces(Scanner& in, Polygon_soup& soup)
 Polygon_soup read_off(std::string_view content, const std::string& file)
 {
   Scanner in(content, file, '#');
-  const bool is_homogeneous = read_off_key_word(in);
+  const std::string_view key = read_off_key_word(in);
+  const auto has = [&](char part) { return key.find(part) != std::string_view::npos; };
   const std::int64_t nv = in.integer(), nf = in.integer_in_line();
   skip_numbers(in); // that of the edges may be absent
 
   Polygon_soup soup;
   soup.points.resize(announced_number(nv, "vertices", 6, in.size() - in.position(), file));
   soup.faces.resize(announced_number(nf, "faces", 8, in.size() - in.position(), file));
-  read_off_vertices(in, is_homogeneous, soup);
+  if(has('C'))
+    soup.notices.push_back("skipped the colours of vertices");
+  read_off_vertices(in, has('4'), soup);
   read_off_faces(in, soup);
   if(! in.at_end())
     in.error("there is more than the ", nv, " vertices and ", nf, " faces that are announced");

@@ -187,18 +187,42 @@ std::size_t end_of_ply_header(const Scanner& in, std::string_view content)
   return last_end + end.size();
 }
 
+// The largest number of the type that stands for a full colour.
+double full_color(Ply_type type)
+{
+  switch(type)
+  {
+    case Ply_type::FLOAT:
+    case Ply_type::DOUBLE: return 1;
+    case Ply_type::UINT16: return 65535;
+    default:               return 255;
+  }
+}
+
+// Coordinates, and colours if there are the three of them.
 void read_ply_vertices(Ply_numbers& numbers, const Ply_element& element, Polygon_soup& soup)
 {
-  for(auto& p : soup.points)
+  const std::array<std::string, 3> coordinate{{"x", "y", "z"}}, part{{"red", "green", "blue"}};
+  const bool has_colors = std::all_of(part.begin(), part.end(), [&](const std::string& name)
+    { return std::any_of(element.properties.begin(), element.properties.end(), [&](const Ply_property& p) { return p.name == name; }); });
+  soup.attributes.colors.resize(has_colors ? soup.points.size() : 0);
+  for(std::size_t v = 0; v < soup.points.size(); ++v)
   {
+    std::array<double, 3> color{{0, 0, 0}};
     for(const Ply_property& property : element.properties)
       for(std::size_t n = numbers.next_length(property); n > 0; --n)
       {
         const double x = numbers.next(property.type);
         for(std::size_t k = 0; k < 3; ++k)
-          if(property.name.size() == 1 && property.name[0] == "xyz"[k])
-            p[k] = x;
+        {
+          if(property.name == coordinate[k])
+            soup.points[v][k] = x;
+          if(property.name == part[k])
+            color[k] = x / full_color(property.type);
+        }
       }
+    if(has_colors)
+      soup.attributes.colors[v] = color;
     numbers.end_element();
   }
 }

@@ -12,8 +12,11 @@
 #include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -80,14 +83,23 @@ std::size_t largest_number_of_corners(const Written_faces& faces)
   return largest;
 }
 
-void write_header(std::ostream& out, const Split_surface& surface, std::size_t number_of_faces, bool has_large_faces)
+void write_header(std::ostream& out, const Split_surface& surface, std::size_t number_of_faces, bool has_large_faces, bool has_colors)
 {
   out << "ply\nformat binary_little_endian 1.0\ncomment s, t: the layout; log_scale_factor: u; weight: exp(-u), the largest 1\n"
       << "element vertex " << std::to_string(surface.corners().size()) << "\nproperty double x\nproperty double y\nproperty double z\n"
       << (surface.is_on_sphere() ? "" : "property double s\nproperty double t\n")
+      << (has_colors ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "")
       << "property double log_scale_factor\nproperty double weight\nproperty uint vertex\n"
       << "element face " << std::to_string(number_of_faces) << "\nproperty list " << (has_large_faces ? "uint" : "uchar")
       << " uint vertex_indices\nproperty uint chart\nend_header\n";
+}
+
+// That of the vertex of the file, white if it has none.
+void append_color(const std::vector<std::optional<std::array<double, 3> > >& colors, std::size_t v, Byte_stream& bytes)
+{
+  const double full = 255;
+  for(double x : v < colors.size() && colors[v] ? *colors[v] : std::array<double, 3>{{1, 1, 1}})
+    bytes.append_byte(static_cast<std::size_t>(std::lround(full * (x > 0 ? (std::min)(x, 1.) : 0.))));
 }
 
 } // namespace
@@ -98,7 +110,9 @@ bool write_PLY(std::ostream& out, const Given_surface& given, const Split_surfac
   const Written_faces faces(given, result);
   const bool has_large_faces = largest_number_of_corners(faces) > most_corners_in_a_byte;
   const std::vector<std::uint32_t> chart = charts(surface);
-  write_header(out, surface, faces.size(), has_large_faces);
+  const auto& colors = given.attributes.colors;
+  const bool has_colors = ! colors.empty() && result.given_face.empty();
+  write_header(out, surface, faces.size(), has_large_faces, has_colors);
   {
     Byte_stream bytes(out);
     const UV_map& uv = result.lattice_uv ? *result.lattice_uv : result.uv;
@@ -112,6 +126,8 @@ bool write_PLY(std::ostream& out, const Given_surface& given, const Split_surfac
         bytes.append(uv[h].x());
         bytes.append(uv[h].y());
       }
+      if(has_colors)
+        append_color(colors, given.vertex(v), bytes);
       bytes.append(result.u[v]);
       bytes.append(result.weight[v]);
       bytes.append(static_cast<std::uint32_t>(faces.are_of_file() ? given.vertex(v) : v.idx()));
