@@ -15,9 +15,11 @@
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_fit.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_model.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_options.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_surface.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Quantized_cones.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Sparse_cones.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/area_distortion.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/coarse_surface.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/u_measures.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
@@ -59,7 +61,7 @@ public:
     Triangulation delaunay = t_;
     std::vector<Index> broken_faces;
     make_intrinsic_delaunay(delaunay, broken_faces, [](Index) {});
-    return make_model(std::move(delaunay), Vertex_vector(t_.number_of_vertices(), 0.));
+    return make_level(delaunay, Vertex_vector(t_.number_of_vertices(), 0.));
   }
 
   // The same of a metric that was found; the double of a surface is none.
@@ -70,18 +72,18 @@ public:
     Vertex_vector u;
     for(const NT& x : metric.log_scale_factors)
       u.push_back(static_cast<double>(x));
-    return make_model(metric.is_retriangulated() ? metric.triangulation : t_, std::move(u));
+    return make_level(metric.is_retriangulated() ? metric.triangulation : t_, u);
   }
 
-  const std::vector<Index>& places() const { return model_->places(); }
-  std::size_t number_of_solves() const { return number_of_solves_ + (model_ ? model_->number_of_solves() : 0); }
+  const std::vector<Index>& places() const { return level_.model->places(); }
+  std::size_t number_of_solves() const { return number_of_solves_ + (level_.model ? level_.model->number_of_solves() : 0); }
 
   // No cones, if the surface can do without.
   bool without_cones(Curved_cones& s)
   {
-    if(fit_->are_too_few(0))
+    if(level_.fit->are_too_few(0))
       return false;
-    fit_->fit(s);
+    level_.fit->fit(s);
     return true;
   }
 
@@ -89,36 +91,18 @@ public:
   Curved_cones placed(std::size_t most)
   {
     Curved_cones s;
-    most = (std::min)(most, places().size());
-    if(options_.number_of_cones > 0)
-      most = (std::min)(most, options_.number_of_cones);
-    fit_->set_exponent(2);
-    fit_->fit(s);
-    for(std::size_t next_look = 0; s.cones.size() < most && visitor_.go_further(); )
-    {
-      if(s.cones.size() >= next_look && options_.has_bound() && !fit_->are_too_few(s.cones.size()))
-      {
-        Curved_cones trial = s;
-        if(is_near_bounds(trial) && (improve(trial, true), meets_bounds(trial)))
-          return trial;
-        next_look = s.cones.size() + 1 + s.cones.size() / 8; // a look costs as much as some cones
-      }
-      fit_->set_exponent(2);
-      if(!search_->add(s))
-        break;
-      search_->slide(s, 2);
-      visitor_.on_progress(Stage::PLACE, s.cones.size(), measure(s));
-    }
-    improve(s, true);
+    if(!is_large() || options_.has_bound() || !place_coarsely(most, s))
+      return placed_here(most);
+    improve(s, false);
     return s;
   }
 
   // One more cone. Returns whether there is a place.
   bool add(Curved_cones& s)
   {
-    fit_->set_exponent(2);
-    fit_->fit(s);
-    if(!search_->add(s))
+    level_.fit->set_exponent(2);
+    level_.fit->fit(s);
+    if(!level_.search->add(s))
       return false;
     improve(s, false);
     return true;
@@ -131,11 +115,11 @@ public:
       improve_maximum(s, thoroughly);
     else
       improve_mean(s, thoroughly);
-    model_->sharpen(s.cones);
+    level_.model->sharpen(s.cones);
     Curved_cones anew = s;
     anew.curvatures.resize(0); // what was found with blunt columns may be no good place to begin
-    fit_->fit(anew);
-    fit_->fit(s);
+    level_.fit->fit(anew);
+    level_.fit->fit(s);
     if(anew.value < s.value)
       s = std::move(anew);
   }
@@ -154,8 +138,8 @@ public:
   {
     Curved_cones best = s;
     best.curvatures.resize(0);
-    model_->sharpen(best.cones);
-    fit_->fit(best);
+    level_.model->sharpen(best.cones);
+    level_.fit->fit(best);
     return best.curvatures;
   }
 
@@ -174,22 +158,85 @@ public:
 
 private:
   static constexpr std::size_t most_vertices_of_long_search = 20000; // where a solution costs little
+  static constexpr double vertices_of_coarse_surface = 8000; // about: where it costs next to nothing
   static constexpr int decisive_exponent = 8; // of two beginnings the better one is known here, and some cones are put elsewhere
   static constexpr int largest_exponent = 128; // a million vertices: n^{1/128} = 1.11, and far less where |u| is nearly equal at many
 
-  bool make_model(Triangulation t, Vertex_vector u)
+  // A model of a surface, and what searches for cones there; parts refer to one another.
+  struct Level
   {
-    if(model_)
-      number_of_solves_ += model_->number_of_solves();
-    search_.reset();
-    fit_.reset();
-    model_ = std::make_unique<Cone_model<NT> >(std::move(t), std::move(u), euler_characteristic_, make_factorization_());
-    if(!model_->factorize())
+    std::unique_ptr<Cone_model> model;
+    std::unique_ptr<Cone_fit> fit;
+    std::unique_ptr<Sparse_cones> search;
+    Eigen::VectorXd area; // by vertex, of one whole
+  };
+
+  // Of the surface with the lengths of `t` scaled by u.
+  bool make_level(const Triangulation& t, const Vertex_vector& u)
+  {
+    if(level_.model)
+      number_of_solves_ += level_.model->number_of_solves();
+    level_ = Level();
+    Cone_surface surface;
+    return make_cone_surface(t, u, surface) && make_level(std::move(surface), area_, weights_for_maximum(), level_);
+  }
+
+  bool make_level(Cone_surface surface, const Eigen::VectorXd& area, const Eigen::VectorXd& weights_for_maximum, Level& level) const
+  {
+    level.model = std::make_unique<Cone_model>(std::move(surface), euler_characteristic_, make_factorization_());
+    if(!level.model->factorize())
       return false;
     const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U;
-    fit_ = std::make_unique<Cone_fit<NT> >(*model_, is_mean ? area_ : weights_for_maximum(), options_.measure != Cone_measure::MAXIMUM_U);
-    search_ = std::make_unique<Sparse_cones<NT> >(*model_, *fit_, width_);
+    level.area = area;
+    level.fit = std::make_unique<Cone_fit>(*level.model, is_mean ? area : weights_for_maximum, options_.measure != Cone_measure::MAXIMUM_U);
+    level.search = std::make_unique<Sparse_cones>(*level.model, *level.fit, width_);
     return true;
+  }
+
+  bool is_large() const { return places().size() >= most_vertices_of_long_search; }
+
+  // On a coarse surface, where that costs little and can be thorough. Returns whether there is a good one.
+  bool place_coarsely(std::size_t most, Curved_cones& s)
+  {
+    const std::size_t few_vertices = 1000 + 20 * options_.number_of_cones;
+    const Coarse_surface coarse(level_.model->surface(), std::size_t(std::sqrt(double(places().size()) / vertices_of_coarse_surface)));
+    Level other;
+    if(coarse.surface().number_of_vertices() < few_vertices
+       || !make_level(coarse.surface(), coarse.sums(area_), coarse.sums(weights_for_maximum()), other))
+      return false;
+    std::swap(level_, other);
+    s = placed_here(most);
+    std::swap(level_, other);
+    for(Index& c : s.cones)
+      c = coarse.vertex(c);
+    return true;
+  }
+
+  Curved_cones placed_here(std::size_t most)
+  {
+    Curved_cones s;
+    most = (std::min)(most, places().size());
+    if(options_.number_of_cones > 0)
+      most = (std::min)(most, options_.number_of_cones);
+    level_.fit->set_exponent(2);
+    level_.fit->fit(s);
+    for(std::size_t next_look = 0; s.cones.size() < most && visitor_.go_further(); )
+    {
+      if(s.cones.size() >= next_look && options_.has_bound() && !level_.fit->are_too_few(s.cones.size()))
+      {
+        Curved_cones trial = s;
+        if(is_near_bounds(trial) && (improve(trial, true), meets_bounds(trial)))
+          return trial;
+        next_look = s.cones.size() + 1 + s.cones.size() / 8; // a look costs as much as some cones
+      }
+      level_.fit->set_exponent(2);
+      if(!level_.search->add(s))
+        break;
+      level_.search->slide(s, 2);
+      visitor_.on_progress(Stage::PLACE, s.cones.size(), measure(s));
+    }
+    improve(s, true);
+    return s;
   }
 
   // Areas are what counts for means; a maximum is to be seen at small triangles, too.
@@ -205,31 +252,31 @@ private:
     return result;
   }
 
-  Quantized_cones<NT> quantized(long n)
+  Quantized_cones quantized(long n)
   {
-    return Quantized_cones<NT>(*model_, *fit_, *search_, [this](const Curved_cones& s) { return measure(s); }, n,
+    return Quantized_cones(*level_.model, *level_.fit, *level_.search, [this](const Curved_cones& s) { return measure(s); }, n,
                                options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U ? 2 : largest_exponent);
   }
 
   void improve_mean(Curved_cones& s, bool thoroughly)
   {
-    fit_->set_exponent(2);
-    fit_->fit(s);
-    search_->slide(s, 10);
-    if(thoroughly && search_->exchange(s, 2 * int(s.cones.size())))
-      search_->slide(s, 10);
+    level_.fit->set_exponent(2);
+    level_.fit->fit(s);
+    level_.search->slide(s, 10);
+    if(thoroughly && level_.search->exchange(s, 2 * int(s.cones.size())))
+      level_.search->slide(s, 10);
   }
 
   // From where the mean is small, and from where it is smaller yet: either may be the better place to begin.
   void improve_maximum(Curved_cones& s, bool thoroughly)
   {
     Curved_cones other = s;
-    const bool is_small = places().size() < most_vertices_of_long_search;
+    const bool is_small = !is_large();
     if(thoroughly)
     {
-      fit_->set_exponent(2);
-      fit_->fit(s);
-      search_->slide(s, 10);
+      level_.fit->set_exponent(2);
+      level_.fit->fit(s);
+      level_.search->slide(s, 10);
       other = s;
       if(is_small)
         improve_mean(other, true);
@@ -244,9 +291,9 @@ private:
       if(measure(other) < measure(s))
         s = std::move(other);
     }
-    fit_->set_exponent(decisive_exponent);
-    fit_->fit(s);
-    search_->exchange(s, is_small ? 3 : 1);
+    level_.fit->set_exponent(decisive_exponent);
+    level_.fit->fit(s);
+    level_.search->exchange(s, is_small ? 3 : 1);
     approach_maximum(s, is_small ? 2 * decisive_exponent : 4 * decisive_exponent, largest_exponent);
   }
 
@@ -255,12 +302,12 @@ private:
   {
     Curved_cones best;
     double least = std::numeric_limits<double>::infinity();
-    const bool is_small = places().size() < most_vertices_of_long_search;
+    const bool is_small = !is_large();
     for(int p = first; p <= last && visitor_.go_further(); p *= p <= 2 * decisive_exponent ? 2 : 4)
     {
-      fit_->set_exponent(p);
-      fit_->fit(s);
-      search_->slide(s, is_small ? 6 : 3);
+      level_.fit->set_exponent(p);
+      level_.fit->fit(s);
+      level_.search->slide(s, is_small ? 6 : 3);
       const double now = measure(s);
       visitor_.on_progress(Stage::PLACE, s.cones.size(), now);
       if(now < least)
@@ -277,9 +324,9 @@ private:
   bool is_near_bounds(const Curved_cones& s) const
   {
     const Vertex_vector u = u_of(s);
-    return (!(options_.maximum_u > 0) || root_mean_square(area_, u) <= options_.maximum_u)
-        && (!(options_.maximum_area_distortion > 1) || 2 * root_mean_square(area_, u) <= std::log(options_.maximum_area_distortion))
-        && (!(options_.maximum_root_mean_square > 0) || root_mean_square(area_, u) <= 1.1 * options_.maximum_root_mean_square);
+    return (!(options_.maximum_u > 0) || root_mean_square(level_.area, u) <= options_.maximum_u)
+        && (!(options_.maximum_area_distortion > 1) || 2 * root_mean_square(level_.area, u) <= std::log(options_.maximum_area_distortion))
+        && (!(options_.maximum_root_mean_square > 0) || root_mean_square(level_.area, u) <= 1.1 * options_.maximum_root_mean_square);
   }
 
   bool meets_bounds(const Curved_cones& s) const
@@ -293,8 +340,8 @@ private:
 
   double measure_of(Cone_measure what, const Vertex_vector& u) const
   {
-    return what == Cone_measure::ROOT_MEAN_SQUARE_U ? root_mean_square(area_, u)
-         : what == Cone_measure::AREA_DISTORTION    ? area_distortion_of_vertices(area_, u)
+    return what == Cone_measure::ROOT_MEAN_SQUARE_U ? root_mean_square(level_.area, u)
+         : what == Cone_measure::AREA_DISTORTION    ? area_distortion_of_vertices(level_.area, u)
                                                     : largest_entry(u);
   }
 
@@ -306,9 +353,7 @@ private:
   const bool is_closed_;
   const Eigen::VectorXd area_; // by vertex, of one whole
   const double width_;         // the square root of the area of the surface
-  std::unique_ptr<Cone_model<NT> > model_;
-  std::unique_ptr<Cone_fit<NT> > fit_;
-  std::unique_ptr<Sparse_cones<NT> > search_;
+  Level level_;
   std::size_t number_of_solves_ = 0;
 };
 

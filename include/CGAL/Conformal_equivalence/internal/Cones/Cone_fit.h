@@ -49,11 +49,10 @@ struct Curved_cones
   double largest() const { return u.size() > 0 ? u.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity(); }
 };
 
-template <typename NT>
 class Cone_fit
 {
   typedef std::uint32_t Index;
-  typedef Cone_model<NT> Model;
+  typedef Cone_model Model;
 
 public:
   // `weights`: by vertex, with the sum 1. `has_shift`: whether the scale of u does not matter; on closed surfaces it never does. Keeps a reference.
@@ -184,7 +183,7 @@ public:
   }
 
 private:
-  static constexpr double pi() { return Number_constants<double>::pi(); }
+  static double pi() { return Number_constants<double>::pi(); }
 
   // u as it depends on the unknowns: the curvatures of the cones, the spread one, if there is one, and the shift, if it is unknown.
   struct Columns

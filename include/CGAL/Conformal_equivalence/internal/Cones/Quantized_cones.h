@@ -35,7 +35,6 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-template <typename NT>
 class Quantized_cones
 {
   typedef std::uint32_t Index;
@@ -45,7 +44,7 @@ public:
   typedef std::function<double(const Curved_cones&)> Measure;
 
   // Keeps references. `largest_exponent`: of the norms by which cones are moved; 2 for the root mean square
-  Quantized_cones(Cone_model<NT>& model, Cone_fit<NT>& fit, Sparse_cones<NT>& search, Measure measure, long quanta_of_turn, int largest_exponent)
+  Quantized_cones(Cone_model& model, Cone_fit& fit, Sparse_cones& search, Measure measure, long quanta_of_turn, int largest_exponent)
     : model_(model), fit_(fit), search_(search), measure_(std::move(measure)), n_(quanta_of_turn), largest_exponent_(largest_exponent)
   {}
 
@@ -244,7 +243,7 @@ private:
       fit_.set_exponent((std::min)(8, largest_exponent_));
       fit_.apply(s);
       const std::pair<Index, Index> extremes = search_.extremes(s, search_.potential(s));
-      if(extremes.first == Sparse_cones<NT>::null_index || extremes.first == extremes.second)
+      if(extremes.first == Sparse_cones::null_index || extremes.first == extremes.second)
         break;
       Curved_cones best;
       double least = (1 - least_gain) * measure_(s);
@@ -279,9 +278,9 @@ private:
       s.flattened.pop_back();
   }
 
-  Cone_model<NT>& model_;
-  Cone_fit<NT>& fit_;
-  Sparse_cones<NT>& search_;
+  Cone_model& model_;
+  Cone_fit& fit_;
+  Sparse_cones& search_;
   const Measure measure_;
   const long n_;
   const int largest_exponent_;
