@@ -49,8 +49,8 @@ class Cone_chooser
 public:
   // Keeps references.
   Cone_chooser(const Triangulation& t, const Surface_components::Component& component, const Cone_options& options,
-               const Factorization_maker& make_factorization, const Any_visitor& visitor = Any_visitor())
-    : t_(t), options_(options), make_factorization_(make_factorization), visitor_(visitor),
+               const Factorization_maker& make_factorization, const Factorization_maker& make_coarse_factorization, const Any_visitor& visitor)
+    : t_(t), options_(options), make_factorization_(make_factorization), make_coarse_factorization_(make_coarse_factorization), visitor_(visitor),
       euler_characteristic_(double(component.euler_characteristic())),
       is_closed_(component.number_of_borders == 0), area_(vertex_areas(t)), width_(std::exp(log_sum(log_areas(t)) / 2))
   {}
@@ -178,12 +178,16 @@ private:
       number_of_solves_ += level_.model->number_of_solves();
     level_ = Level();
     Cone_surface surface;
-    return make_cone_surface(t, u, surface) && make_level(std::move(surface), area_, weights_for_maximum(), level_);
+    if(!make_cone_surface(t, u, surface))
+      return false;
+    add_room_for(t_, surface);
+    return make_level(std::move(surface), area_, weights_for_maximum(), make_factorization_(), level_);
   }
 
-  bool make_level(Cone_surface surface, const Eigen::VectorXd& area, const Eigen::VectorXd& weights_for_maximum, Level& level) const
+  bool make_level(Cone_surface surface, const Eigen::VectorXd& area, const Eigen::VectorXd& weights_for_maximum,
+                  std::unique_ptr<Factorization> factorization, Level& level) const
   {
-    level.model = std::make_unique<Cone_model>(std::move(surface), euler_characteristic_, make_factorization_());
+    level.model = std::make_unique<Cone_model>(std::move(surface), euler_characteristic_, std::move(factorization));
     if(!level.model->factorize())
       return false;
     const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U;
@@ -202,7 +206,7 @@ private:
     const Coarse_surface coarse(level_.model->surface(), std::size_t(std::sqrt(double(places().size()) / vertices_of_coarse_surface)));
     Level other;
     if(coarse.surface().number_of_vertices() < few_vertices
-       || !make_level(coarse.surface(), coarse.sums(area_), coarse.sums(weights_for_maximum()), other))
+       || !make_level(coarse.surface(), coarse.sums(area_), coarse.sums(weights_for_maximum()), make_coarse_factorization_(), other))
       return false;
     std::swap(level_, other);
     s = placed_here(most);
@@ -348,6 +352,7 @@ private:
   const Triangulation& t_;
   const Cone_options options_;
   const Factorization_maker make_factorization_;
+  const Factorization_maker make_coarse_factorization_; // which must not be shared with the other
   const Any_visitor visitor_; // may end every search: what has been found counts
   const double euler_characteristic_;
   const bool is_closed_;

@@ -87,7 +87,7 @@ public:
     for(Index v : inner_)
       free[v] = 1;
     if(is_closed_ && !inner_.empty())
-      free[inner_.front()] = 0;
+      free[surface_.ground] = 0;
     linear_.set_edges(surface_);
     linear_.set_free(free);
   }
@@ -113,6 +113,9 @@ public:
   const std::vector<Index>& places() const { return inner_; } // where cones can be
   bool is_closed() const { return is_closed_; }
   std::size_t number_of_solves() const { return number_of_solves_; }
+
+  // Of what is accurate: the largest residual, as a part of the largest force
+  void set_accuracy(double accuracy) { accuracy_ = accuracy; }
 
   // What the curvatures of the cones of a closed surface sum up to.
   double total_curvature() const { return 2 * Number_constants<double>::pi() * euler_characteristic_; }
@@ -179,7 +182,7 @@ private:
   {
     Vertex_vector x;
     bool converged = false;
-    number_of_solves_ += linear_.conjugate_gradients(surface_.weights, force, 1e-10, 30, false, x, converged);
+    number_of_solves_ += linear_.conjugate_gradients(surface_.weights, force, accuracy_, 30, false, x, converged);
     return x;
   }
 
@@ -192,6 +195,7 @@ private:
   std::map<Index, Column> columns_;
   Column spread_;
   std::size_t number_of_solves_ = 0;
+  double accuracy_ = 1e-10;
 };
 
 } // namespace internal

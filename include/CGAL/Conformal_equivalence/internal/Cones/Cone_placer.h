@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_excursion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_options.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_search.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Shared_factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/area_distortion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/nearest_integers.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/u_measures.h>
@@ -55,7 +56,8 @@ public:
   // The search keeps one factor all the time, which must be none of those that are made for metrics meanwhile. Keeps a reference to `t`.
   Cone_placer(const Triangulation& t, const Cone_options& options, const Solver_options& solver_options,
               std::unique_ptr<Factorization> search_factorization, Factorization_maker make_factorization)
-    : t_(t), options_(options), solver_options_(solver_options), make_factorization_(std::move(make_factorization)),
+    : t_(t), options_(options), solver_options_(solver_options), make_coarse_factorization_(std::move(make_factorization)),
+      make_factorization_(shared_factorization_maker(make_coarse_factorization_)),
       search_factorization_(std::move(search_factorization)), pieces_(connected_components(t)), area_(vertex_areas(t))
   {}
 
@@ -279,7 +281,7 @@ private:
   bool choose()
   {
     visitor().on_stage(Stage::PLACE);
-    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, visitor());
+    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, make_coarse_factorization_, visitor());
     if(!chooser.begin())
       return false;
     Curved_cones s;
@@ -674,7 +676,7 @@ private:
        || result_.status != Status::OK || !is_success(result_.metric.status))
       return;
     visitor().on_stage(Stage::PLACE);
-    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, visitor());
+    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, make_coarse_factorization_, visitor());
     if(!chooser.go_on_from(result_.metric) && !chooser.begin())
       return;
     const double turn = 2 * Number_constants<double>::pi();
@@ -745,7 +747,8 @@ private:
   const Triangulation& t_;
   const Cone_options options_;
   const Solver_options solver_options_;
-  const Factorization_maker make_factorization_;
+  const Factorization_maker make_coarse_factorization_;
+  const Factorization_maker make_factorization_; // all of them share one
   std::unique_ptr<Factorization> search_factorization_;
   const Surface_components pieces_;
   const Eigen::VectorXd area_; // by vertex, of one whole

@@ -32,6 +32,7 @@ public:
   std::vector<Kind> kind;                      // by vertex
   std::vector<double> degree;                  // by vertex: of triangles
   std::vector<double> curvature;               // by vertex; of inner ones only
+  Index ground = 0;                            // the vertex that is grounded if there is no border: that of metrics, so that patterns are the same
   Vertex_vector u;                             // the scale that curvatures and weights are of
   std::vector<std::pair<Index, Index> > ends;  // by edge
   std::vector<double> weights;                 // by edge, as in Edge_graph.h
@@ -87,6 +88,7 @@ bool make_cone_surface(const Intrinsic_triangulation<NT>& t, const Vertex_vector
   if(!energy.evaluate(u))
     return false;
   s = Cone_surface();
+  s.ground = t.origin(0);
   s.u = u;
   s.weights = energy.weights();
   s.curvature.assign(u.size(), 0.);
@@ -105,6 +107,22 @@ bool make_cone_surface(const Intrinsic_triangulation<NT>& t, const Vertex_vector
   }
   add_neighbours(t, s);
   return true;
+}
+
+// Edges without weight where those of `other` are, which has the same vertices: then a factor has room for matrices of that, too.
+template <typename NT>
+void add_room_for(const Intrinsic_triangulation<NT>& other, Cone_surface& s)
+{
+  typedef typename Intrinsic_triangulation<NT>::Index Index;
+  for(Index e = 0; e < other.number_of_edges(); ++e)
+  {
+    const Index v = other.origin(other.edge_halfedge(e)), w = other.target(other.edge_halfedge(e));
+    if(s.ends[e] == std::make_pair(v, w) || s.ends[e] == std::make_pair(w, v))
+      continue;
+    s.ends.emplace_back(v, w);
+    s.weights.push_back(0);
+    s.lengths.push_back(static_cast<double>(other.length(e)));
+  }
 }
 
 } // namespace internal
