@@ -148,13 +148,15 @@ double angle_at(const Soup& soup, Index a, Index b, Index c)
   return std::acos(dot / std::sqrt(square_b * square_c));
 }
 
-typedef CE::internal::Cone_model<double>   Model;
-typedef CE::internal::Cone_fit<double>     Fit;
+typedef CE::internal::Cone_model           Model;
+typedef CE::internal::Cone_fit             Fit;
 typedef CE::internal::Curved_cones         Curved_cones;
 
 std::unique_ptr<Model> model_of(const Triangulation& t)
 {
-  auto result = std::make_unique<Model>(t, std::vector<double>(t.number_of_vertices(), 0.), double(only_component(t).euler_characteristic()),
+  CE::internal::Cone_surface surface;
+  BOOST_REQUIRE(CE::internal::make_cone_surface(t, std::vector<double>(t.number_of_vertices(), 0.), surface));
+  auto result = std::make_unique<Model>(std::move(surface), double(only_component(t).euler_characteristic()),
                                         CE::internal::make_factorization<CE::Default_solver_traits>());
   BOOST_REQUIRE(result->factorize());
   return result;
@@ -532,7 +534,7 @@ BOOST_AUTO_TEST_CASE(the_dual_potential_is_the_derivative_by_curvature)
     s.curvatures.resize(3);
     s.curvatures << 1, -0.5, 0.7;
     fit.apply(s);
-    CE::internal::Sparse_cones<double> search(*model, fit, 1.);
+    CE::internal::Sparse_cones search(*model, fit, 1.);
     const Eigen::VectorXd p = search.potential(s);
     const double h = 1e-4, largest_u = s.largest();
     const Eigen::VectorXd load = fit.load_weights(s.u).cwiseProduct(s.u);

@@ -87,13 +87,16 @@ public:
     return true;
   }
 
-  // As many cones as are asked for; or until the bounds are met in the model, but no more than `most`.
-  Curved_cones placed(std::size_t most)
+  // As many cones as are asked for; or until the bounds are met in the model, but no more than `most`. `are_final`: whether their angles are kept
+  Curved_cones placed(std::size_t most, bool are_final)
   {
-    Curved_cones s;
-    if(!is_large() || options_.has_bound() || !place_coarsely(most, s))
+    if(!is_large() || options_.has_bound() || !exchange_levels())
       return placed_here(most);
-    improve(s, false);
+    Curved_cones s = placed_here(most);
+    exchange_levels();
+    set_places(s, [&](Index c) { return coarse_->vertex(c); });
+    if(are_final)
+      improve(s, false);
     return s;
   }
 
@@ -127,11 +130,18 @@ public:
   // Makes the curvatures multiples of 2 pi / n, and moves the cones with these. Returns whether there are such curvatures.
   bool quantize(Curved_cones& s, long n)
   {
-    return quantized(n).quantize(s, (std::max)(s.cones.size(), (std::min)(options_.number_of_cones, places().size())));
+    const std::size_t most = (std::max)(s.cones.size(), (std::min)(options_.number_of_cones, places().size()));
+    return (is_large() && !options_.has_bound() && quantize_coarsely(s, n, most)) || quantized(n).quantize(s, most);
   }
 
   // The same with multiples already.
-  void improve_quantized(Curved_cones& s, long n) { quantized(n).improve(s, s.cones.size() + s.flattened.size()); }
+  void improve_quantized(Curved_cones& s, long n)
+  {
+    if(is_large())
+      move_quantized(s, n);
+    else
+      quantized(n).improve(s, s.cones.size() + s.flattened.size());
+  }
 
   // The best curvatures for the places of `s`.
   Eigen::VectorXd best_curvatures(const Curved_cones& s)
@@ -177,6 +187,8 @@ private:
     if(level_.model)
       number_of_solves_ += level_.model->number_of_solves();
     level_ = Level();
+    other_level_ = Level();
+    coarse_.reset();
     Cone_surface surface;
     if(!make_cone_surface(t, u, surface))
       return false;
@@ -199,20 +211,93 @@ private:
 
   bool is_large() const { return places().size() >= most_vertices_of_long_search; }
 
-  // On a coarse surface, where that costs little and can be thorough. Returns whether there is a good one.
-  bool place_coarsely(std::size_t most, Curved_cones& s)
+  // Goes on with the coarse surface, where a search costs little and can be thorough; or back again. Returns whether there is a good one.
+  bool exchange_levels()
   {
     const std::size_t few_vertices = 1000 + 20 * options_.number_of_cones;
-    const Coarse_surface coarse(level_.model->surface(), std::size_t(std::sqrt(double(places().size()) / vertices_of_coarse_surface)));
-    Level other;
-    if(coarse.surface().number_of_vertices() < few_vertices
-       || !make_level(coarse.surface(), coarse.sums(area_), coarse.sums(weights_for_maximum()), make_coarse_factorization_(), other))
-      return false;
-    std::swap(level_, other);
-    s = placed_here(most);
-    std::swap(level_, other);
+    if(!coarse_)
+    {
+      const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U; // for which a search costs less
+      const std::size_t radius = std::size_t(std::sqrt(double(places().size()) / ((is_mean ? 2 : 1) * vertices_of_coarse_surface)));
+      coarse_ = std::make_unique<Coarse_surface>(level_.model->surface(), radius, !is_mean);
+      is_coarse_good_ = coarse_->surface().number_of_vertices() >= few_vertices
+        && make_level(coarse_->surface(), coarse_->sums(area_), coarse_->sums(weights_for_maximum()), make_coarse_factorization_(), other_level_);
+    }
+    if(is_coarse_good_)
+      std::swap(level_, other_level_);
+    return is_coarse_good_;
+  }
+
+  // The cones are at the images of their places; u is not known there.
+  template <typename Image>
+  static void set_places(Curved_cones& s, const Image& image)
+  {
     for(Index& c : s.cones)
-      c = coarse.vertex(c);
+      c = image(c);
+    for(Index& c : s.flattened)
+      c = image(c);
+    s.u.resize(0);
+  }
+
+  // The same as quantize() on the coarse surface, from there and from where the mean of u is least; what is better is moved on the surface given.
+  bool quantize_coarsely(Curved_cones& s, long n, std::size_t most)
+  {
+    if(!exchange_levels())
+      return false;
+    std::vector<Curved_cones> starts(1, s);
+    set_places(starts[0], [&](Index c) { return coarse_->coarse_vertex(c); });
+    std::vector<Index> places = starts[0].cones;
+    std::sort(places.begin(), places.end());
+    if(std::adjacent_find(places.begin(), places.end()) != places.end())
+      starts.clear();
+    if(options_.measure != Cone_measure::ROOT_MEAN_SQUARE_U || starts.empty())
+    {
+      starts.push_back(placed_for_mean(s.cones.size()));
+      starts.push_back(starts.back());
+      approach_maximum(starts.back(), decisive_exponent / 2, decisive_exponent);
+    }
+    Curved_cones best;
+    double least = std::numeric_limits<double>::infinity();
+    for(Curved_cones& trial : starts)
+      if(quantized(n).quantize(trial, most) && (best.u.size() == 0 || measure(trial) < least))
+      {
+        least = measure(trial);
+        best = std::move(trial);
+      }
+    exchange_levels();
+    if(best.u.size() == 0)
+      return false;
+    s = std::move(best);
+    set_places(s, [&](Index c) { return coarse_->vertex(c); });
+    move_quantized(s, n);
+    return true;
+  }
+
+  // Where a round costs much there are few of them.
+  void move_quantized(Curved_cones& s, long n) { quantized(n).move(s, 4 * decisive_exponent, 4, 3); }
+
+  Curved_cones placed_for_mean(std::size_t most)
+  {
+    Curved_cones s;
+    fit_for_mean(s);
+    while(s.cones.size() < most && visitor_.go_further() && search_another_for_mean(s)) {}
+    improve_mean(s, true);
+    return s;
+  }
+
+  void fit_for_mean(Curved_cones& s)
+  {
+    level_.fit->set_exponent(2);
+    level_.fit->fit(s);
+  }
+
+  // One more cone. Returns whether there is a place.
+  bool search_another_for_mean(Curved_cones& s)
+  {
+    level_.fit->set_exponent(2);
+    if(!level_.search->add(s))
+      return false;
+    level_.search->slide(s, 2);
     return true;
   }
 
@@ -222,8 +307,7 @@ private:
     most = (std::min)(most, places().size());
     if(options_.number_of_cones > 0)
       most = (std::min)(most, options_.number_of_cones);
-    level_.fit->set_exponent(2);
-    level_.fit->fit(s);
+    fit_for_mean(s);
     for(std::size_t next_look = 0; s.cones.size() < most && visitor_.go_further(); )
     {
       if(s.cones.size() >= next_look && options_.has_bound() && !level_.fit->are_too_few(s.cones.size()))
@@ -233,10 +317,8 @@ private:
           return trial;
         next_look = s.cones.size() + 1 + s.cones.size() / 8; // a look costs as much as some cones
       }
-      level_.fit->set_exponent(2);
-      if(!level_.search->add(s))
+      if(!search_another_for_mean(s))
         break;
-      level_.search->slide(s, 2);
       visitor_.on_progress(Stage::PLACE, s.cones.size(), measure(s));
     }
     improve(s, true);
@@ -359,6 +441,9 @@ private:
   const Eigen::VectorXd area_; // by vertex, of one whole
   const double width_;         // the square root of the area of the surface
   Level level_;
+  std::unique_ptr<Coarse_surface> coarse_; // of its surface, once it was asked for
+  bool is_coarse_good_ = false;
+  Level other_level_;                      // the coarse one, or, while that is searched, the one given
   std::size_t number_of_solves_ = 0;
 };
 

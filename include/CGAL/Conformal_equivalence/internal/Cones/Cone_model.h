@@ -45,8 +45,8 @@ namespace internal {
 class Cone_apex
 {
 public:
-  Cone_apex(double degree, double curvature)
-    : degree_(degree), curvature_(curvature), angle_(admitted((2 * Number_constants<double>::pi() - curvature) / degree)),
+  Cone_apex(double degree, double curvature, double blur)
+    : degree_(degree), curvature_(curvature), blur_(blur), angle_(admitted((2 * Number_constants<double>::pi() - curvature) / degree)),
       sine_(std::sin(angle_ / 2)), slope_(1 / (degree * std::tan(angle_ / 2)))
   {}
 
@@ -54,14 +54,14 @@ public:
   std::pair<double, double> excess(double k) const
   {
     const double half = admitted(angle_ - (k - curvature_) / degree_) / 2, sine = std::sin(half);
-    return std::make_pair(2 * std::log(sine_ / sine) - (k - curvature_) * slope_, std::cos(half) / (sine * degree_) - slope_);
+    return std::make_pair(2 * std::log(sine_ / sine) - (k - curvature_) * (slope_ - blur_), std::cos(half) / (sine * degree_) - slope_ + blur_);
   }
 
 private:
   // Beyond, edges are flipped.
   static double admitted(double angle) { return (std::min)((std::max)(angle, 1e-3), Number_constants<double>::pi()); }
 
-  double degree_, curvature_;
+  double degree_, curvature_, blur_;
   double angle_; // of each of the triangles
   double sine_, slope_;
 };
@@ -123,7 +123,7 @@ public:
   // u where there are no cones; of a closed surface, as if the curvature missing were at the grounded vertex
   const Eigen::VectorXd& flat() const { return flat_; }
 
-  Cone_apex apex(Index v) const { return Cone_apex(surface_.degree[v], surface_.curvature[v]); }
+  Cone_apex apex(Index v) const { return Cone_apex(surface_.degree[v], surface_.own_curvature[v], surface_.blur[v]); }
 
   // What is to be added to u at v, where the curvature becomes k, and its derivative by k.
   std::pair<double, double> excess(Index v, double k) const { return apex(v).excess(k); }

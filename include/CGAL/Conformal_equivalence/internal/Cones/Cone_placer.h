@@ -274,7 +274,7 @@ private:
   {
     const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U; // to which closest vectors belong
     return options_.angles == Cone_angles::CHOSEN && options_.measure != Cone_measure::DIRICHLET_ENERGY
-        && (is_mean || !(options_.angle_quantum > 0));
+        && (is_mean || !(options_.angle_quantum > 0) || t_.number_of_vertices() >= 20000);
   }
 
   // Places and angles together. Returns whether there is a metric with these; if there is none, cones with u = 0 may have one.
@@ -289,7 +289,7 @@ private:
       return true;
     if(is_stopped())
       return true;
-    s = chooser.placed(most_cones_for_bound);
+    s = chooser.placed(most_cones_for_bound, !(options_.angle_quantum > 0));
     if(!visitor().go_further())
     {
       refuse(Status::STOPPED_BY_VISITOR);

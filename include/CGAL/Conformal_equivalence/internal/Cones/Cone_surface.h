@@ -32,6 +32,8 @@ public:
   std::vector<Kind> kind;                      // by vertex
   std::vector<double> degree;                  // by vertex: of triangles
   std::vector<double> curvature;               // by vertex; of inner ones only
+  std::vector<double> own_curvature;           // by vertex, without that of others for which it stands
+  std::vector<double> blur;                    // by vertex: what u there is less than it would be, by curvature of its own
   Index ground = 0;                            // the vertex that is grounded if there is no border: that of metrics, so that patterns are the same
   Vertex_vector u;                             // the scale that curvatures and weights are of
   std::vector<std::pair<Index, Index> > ends;  // by edge
@@ -105,6 +107,8 @@ bool make_cone_surface(const Intrinsic_triangulation<NT>& t, const Vertex_vector
     s.ends.emplace_back(t.origin(t.edge_halfedge(e)), t.target(t.edge_halfedge(e)));
     s.lengths.push_back(static_cast<double>(t.length(e)));
   }
+  s.own_curvature = s.curvature;
+  s.blur.assign(u.size(), 0.);
   add_neighbours(t, s);
   return true;
 }

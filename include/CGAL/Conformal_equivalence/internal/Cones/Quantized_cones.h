@@ -75,18 +75,16 @@ public:
     }
   }
 
-private:
-
-  // Moves the cones with the curvatures that they have.
-  void move(Curved_cones& s)
+  // Moves the cones with the curvatures that they have; for some powers, the least and the factor from one to the next of which are given.
+  void move(Curved_cones& s, int first = 16, int factor = 2, int most_rounds_of_power = 20)
   {
     search_.keep_angles(true);
     Curved_cones best = s;
-    for(int p = (std::min)(16, largest_exponent_); p <= largest_exponent_; p *= 2)
+    for(int p = (std::min)(first, largest_exponent_); p <= largest_exponent_; p *= factor)
     {
       fit_.set_exponent(p);
       fit_.apply(s);
-      search_.slide(s, 20);
+      search_.slide(s, most_rounds_of_power);
       if(measure_(s) < measure_(best))
         best = s;
     }
@@ -95,6 +93,7 @@ private:
     fit_.apply(s);
   }
 
+private:
   static constexpr int most_rounds = 4;            // the second seldom changes anything
   static constexpr double least_gain = 1e-3;       // a part of the measure
   static constexpr std::size_t most_candidates = 12; // by each of the norms

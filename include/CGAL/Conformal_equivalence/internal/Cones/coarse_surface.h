@@ -8,6 +8,10 @@
 // that is nearest along edges. Seeds bear the curvature of those that have joined them. Between two seeds at the distance d the weight is that of finite
 // volumes: the sum of w l / d over the edges, of weight w and length l, that lead from the cell of the one to that of the other. Weights that are too
 // large or too tiny throughout scale u, which changes neither places nor angles.
+//
+// Near a cone of the curvature k u is -k log(r) / (2 pi) at the distance r, and so it is larger at the cone itself the closer the next vertices are: for
+// a cell of m vertices by about k log(m) / (4 pi). That is added
+// there, where the largest |u| matters; in means a cell counts more than its seed.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_COARSE_SURFACE_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_COARSE_SURFACE_H
@@ -34,8 +38,9 @@ class Coarse_surface
   typedef Cone_surface::Kind Kind;
 
 public:
-  // No two seeds are within so many edges. Takes linear time, for a radius of a few edges.
-  Coarse_surface(const Cone_surface& fine, std::size_t radius) : fine_(fine)
+  // No two seeds are within so many edges. `are_peaks_seen`: whether u at cones is to be as large as on the surface given, of which a reference is
+  // kept. Takes linear time, for a radius of a few edges.
+  Coarse_surface(const Cone_surface& fine, std::size_t radius, bool are_peaks_seen) : fine_(fine), are_peaks_seen_(are_peaks_seen)
   {
     choose_seeds(radius);
     make_cells();
@@ -45,6 +50,7 @@ public:
 
   const Cone_surface& surface() const { return coarse_; }
   Index vertex(Index coarse) const { return seeds_[coarse]; } // of the surface given
+  Index coarse_vertex(Index v) const { return cell_[v]; }
 
   // The sums over the cells
   Eigen::VectorXd sums(const Eigen::VectorXd& x) const
@@ -117,13 +123,25 @@ private:
   void make_vertices()
   {
     coarse_.u.assign(seeds_.size(), 0.);
+    coarse_.ground = 0;
     coarse_.curvature.assign(seeds_.size(), 0.);
-    coarse_.degree.assign(seeds_.size(), 0.);
+    std::vector<double> size(seeds_.size(), 0.);
     for(Index seed : seeds_)
+    {
       coarse_.kind.push_back(fine_.kind[seed]);
+      coarse_.degree.push_back(fine_.degree[seed]);
+      coarse_.own_curvature.push_back(fine_.curvature[seed]);
+    }
     for(std::size_t v = 0; v < cell_.size(); ++v)
-      if(cell_[v] != none && coarse_.is_inner_vertex(cell_[v]))
+    {
+      if(cell_[v] == none)
+        continue;
+      size[cell_[v]] += 1;
+      if(coarse_.is_inner_vertex(cell_[v]))
         coarse_.curvature[cell_[v]] += fine_.curvature[v];
+    }
+    for(double x : size)
+      coarse_.blur.push_back(are_peaks_seen_ ? std::log(x) / (4 * Number_constants<double>::pi()) : 0.);
   }
 
   struct Link { Index from, to; double flux, distance; };
@@ -171,8 +189,6 @@ private:
       ++end[ends.first];
       ++end[ends.second];
     }
-    for(std::size_t v = 0; v < seeds_.size(); ++v)
-      coarse_.degree[v] = double(end[v]);
     coarse_.first_neighbour.assign(1, 0);
     for(std::size_t v = 0; v < seeds_.size(); ++v)
       coarse_.first_neighbour.push_back(coarse_.first_neighbour.back() + end[v]);
@@ -187,6 +203,7 @@ private:
   }
 
   const Cone_surface& fine_;
+  const bool are_peaks_seen_;
   Cone_surface coarse_;
   std::vector<Index> seeds_;       // by vertex of the coarse surface
   std::vector<Index> cell_;        // by vertex of the fine one: its seed's
