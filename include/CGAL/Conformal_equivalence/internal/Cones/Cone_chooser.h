@@ -217,8 +217,9 @@ private:
     const std::size_t few_vertices = 1000 + 20 * options_.number_of_cones;
     if(!coarse_)
     {
-      const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U; // for which a search costs less
-      const std::size_t radius = std::size_t(std::sqrt(double(places().size()) / ((is_mean ? 2 : 1) * vertices_of_coarse_surface)));
+      const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U, is_quantized = options_.angle_quantum > 0;
+      const double fineness = is_mean || is_quantized ? 2 : 1; // means cost less, and multiples cannot make up for places that are not quite right
+      const std::size_t radius = std::size_t(std::sqrt(double(places().size()) / (fineness * vertices_of_coarse_surface)));
       coarse_ = std::make_unique<Coarse_surface>(level_.model->surface(), radius, !is_mean);
       is_coarse_good_ = coarse_->surface().number_of_vertices() >= few_vertices
         && make_level(coarse_->surface(), coarse_->sums(area_), coarse_->sums(weights_for_maximum()), make_coarse_factorization_(), other_level_);
@@ -242,6 +243,7 @@ private:
   // The same as quantize() on the coarse surface, from there and from where the mean of u is least; what is better is moved on the surface given.
   bool quantize_coarsely(Curved_cones& s, long n, std::size_t most)
   {
+    const double most_growth = 1.25; // beyond, what was chosen there is not much worth here
     if(!exchange_levels())
       return false;
     std::vector<Curved_cones> starts(1, s);
@@ -255,6 +257,7 @@ private:
       starts.push_back(placed_for_mean(s.cones.size()));
       starts.push_back(starts.back());
       approach_maximum(starts.back(), decisive_exponent / 2, decisive_exponent);
+      starts.push_back(placed_with_zero_u(s.cones.size()));
     }
     Curved_cones best;
     double least = std::numeric_limits<double>::infinity();
@@ -270,11 +273,13 @@ private:
     s = std::move(best);
     set_places(s, [&](Index c) { return coarse_->vertex(c); });
     move_quantized(s, n);
+    if(measure(s) > most_growth * least)
+      quantized(n).improve(s, most);
     return true;
   }
 
   // Where a round costs much there are few of them.
-  void move_quantized(Curved_cones& s, long n) { quantized(n).move(s, 4 * decisive_exponent, 4, 3); }
+  void move_quantized(Curved_cones& s, long n) { quantized(n).move(s, decisive_exponent, 4, 6); }
 
   Curved_cones placed_for_mean(std::size_t most)
   {
@@ -283,6 +288,64 @@ private:
     while(s.cones.size() < most && visitor_.go_further() && search_another_for_mean(s)) {}
     improve_mean(s, true);
     return s;
+  }
+
+  // As in section 5.1 of the paper, to first order: where |u| is largest, again and again, the oldest cone being taken away when there are enough.
+  Curved_cones placed_with_zero_u(std::size_t n)
+  {
+    const std::size_t n_sweeps = 3;
+    Curved_cones s;
+    s.u = level_.model->flat();
+    for(std::size_t i = 0; i < n_sweeps * n; ++i)
+    {
+      if(s.cones.size() == n)
+        s.cones.erase(s.cones.begin());
+      s.cones.push_back(worst_place(s));
+      set_zero_u(s);
+    }
+    return s;
+  }
+
+  // The place of the largest |u| that is no cone. \pre there is one
+  Index worst_place(const Curved_cones& s) const
+  {
+    Index result = places().front();
+    double most = -1;
+    for(Index v : places())
+      if(std::abs(s.u[v]) > most && !s.has(v))
+      {
+        most = std::abs(s.u[v]);
+        result = v;
+      }
+    return result;
+  }
+
+  // The curvatures with which u = 0 at the cones.
+  void set_zero_u(Curved_cones& s)
+  {
+    const Eigen::Index n = Eigen::Index(s.cones.size()), size = n + (is_closed_ ? 1 : 0);
+    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(size, size);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(size);
+    for(Eigen::Index i = 0; i < n; ++i)
+    {
+      const Index c = s.cones[std::size_t(i)];
+      for(Eigen::Index j = 0; j < n; ++j)
+        m(i, j) = (*level_.model->column(s.cones[std::size_t(j)]))[c];
+      m(i, i) += level_.model->excess(c, 0).second;
+      b[i] = -level_.model->flat()[c];
+    }
+    if(is_closed_)
+    {
+      m.col(n).head(n).setConstant(-1);
+      m.row(n).head(n).setOnes();
+      b[n] = level_.model->total_curvature();
+    }
+    const Eigen::VectorXd x = m.fullPivLu().solve(b);
+    s.curvatures = x.head(n);
+    s.shift = is_closed_ ? x[n] : 0;
+    s.u = level_.model->flat().array() - s.shift;
+    for(Eigen::Index j = 0; j < n; ++j)
+      s.u += x[j] * *level_.model->column(s.cones[std::size_t(j)]);
   }
 
   void fit_for_mean(Curved_cones& s)

@@ -5,13 +5,13 @@
 // divided; and what a search costs grows with the number of vertices.
 //
 // Some vertices, the *seeds*, are chosen such that each vertex is within some edges of one, and no two of them are. The others join the seed
-// that is nearest along edges. Seeds bear the curvature of those that have joined them. Between two seeds at the distance d the weight is that of finite
-// volumes: the sum of w l / d over the edges, of weight w and length l, that lead from the cell of the one to that of the other. Weights that are too
-// large or too tiny throughout scale u, which changes neither places nor angles.
+// that is nearest along edges. Seeds bear the curvature of those that have joined them. Between two seeds at the distance d the weight is that of
+// finite volumes: the sum of w l / d over the edges, of weight w and length l, that lead from the cell of the one to that of the other. Weights that
+// are too large or too tiny throughout scale u, which changes neither places nor angles.
 //
-// Near a cone of the curvature k u is -k log(r) / (2 pi) at the distance r, and so it is larger at the cone itself the closer the next vertices are: for
-// a cell of m vertices by about k log(m) / (4 pi). That is added
-// there, where the largest |u| matters; in means a cell counts more than its seed.
+// Near a cone of the curvature k u is -k log(r) / (2 pi) at the distance r, and so it is larger at the cone itself the closer the next vertices
+// are: for a cell of m vertices by about k log(m) / (4 pi). That is added there, where the largest |u| matters; in means a cell counts more than
+// its seed.
 
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_COARSE_SURFACE_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_COARSE_SURFACE_H
