@@ -55,6 +55,12 @@ public:
       is_closed_(component.number_of_borders == 0), area_(vertex_areas(t)), width_(std::exp(log_sum(log_areas(t)) / 2))
   {}
 
+  // Are cones first searched for on a coarse surface, if there are so many places? A bound is to be met on the surface given.
+  static bool is_begun_coarsely(const Cone_options& options, std::size_t number_of_places)
+  {
+    return number_of_places >= most_vertices_of_long_search && !options.has_bound();
+  }
+
   // Makes the model of the surface given. Returns whether that is possible.
   bool begin()
   {
@@ -90,7 +96,7 @@ public:
   // As many cones as are asked for; or until the bounds are met in the model, but no more than `most`. `are_final`: whether their angles are kept
   Curved_cones placed(std::size_t most, bool are_final)
   {
-    if(!is_large() || options_.has_bound() || !exchange_levels())
+    if(!is_begun_coarsely(options_, places().size()) || !exchange_levels())
       return placed_here(most);
     Curved_cones s = placed_here(most);
     exchange_levels();
@@ -131,7 +137,7 @@ public:
   bool quantize(Curved_cones& s, long n)
   {
     const std::size_t most = (std::max)(s.cones.size(), (std::min)(options_.number_of_cones, places().size()));
-    return (is_large() && !options_.has_bound() && quantize_coarsely(s, n, most)) || quantized(n).quantize(s, most);
+    return (is_begun_coarsely(options_, places().size()) && quantize_coarsely(s, n, most)) || quantized(n).quantize(s, most);
   }
 
   // The same with multiples already.

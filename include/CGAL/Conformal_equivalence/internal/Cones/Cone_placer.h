@@ -96,11 +96,17 @@ private:
   bool is_sphere() const { return number_of_borders() == 0 && pieces_.components[0].euler_characteristic() > 0; }
   std::size_t number_of_borders() const { return pieces_.components[0].number_of_borders; }
 
-  bool check_number()
+  std::size_t number_of_inner_vertices() const
   {
     std::size_t n = 0;
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
       n += t_.is_isolated_vertex(v) || t_.is_border_vertex(v) ? 0 : 1;
+    return n;
+  }
+
+  bool check_number()
+  {
+    const std::size_t n = number_of_inner_vertices();
     if(options_.number_of_cones > n || (is_sphere() && n < 3))
       refuse(Status::TOO_MANY_CONES, double(n));
     else if(is_sphere() && options_.number_of_cones > 0 && options_.number_of_cones < 3)
@@ -274,7 +280,7 @@ private:
   {
     const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U; // to which closest vectors belong
     return options_.angles == Cone_angles::CHOSEN && options_.measure != Cone_measure::DIRICHLET_ENERGY
-        && (is_mean || !(options_.angle_quantum > 0) || t_.number_of_vertices() >= 20000);
+        && (is_mean || !(options_.angle_quantum > 0) || Cone_chooser<NT>::is_begun_coarsely(options_, number_of_inner_vertices()));
   }
 
   // Places and angles together. Returns whether there is a metric with these; if there is none, cones with u = 0 may have one.
