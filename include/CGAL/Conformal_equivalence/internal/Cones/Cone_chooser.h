@@ -26,6 +26,7 @@
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
