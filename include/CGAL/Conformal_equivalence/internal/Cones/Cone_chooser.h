@@ -20,13 +20,13 @@
 #include <CGAL/Conformal_equivalence/internal/Cones/Sparse_cones.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/area_distortion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/coarse_surface.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/dense_systems.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/u_measures.h>
 #include <CGAL/Conformal_equivalence/internal/Retriangulation/Delaunay_flipper.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/options.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -53,13 +53,20 @@ public:
                const Factorization_maker& make_factorization, const Factorization_maker& make_coarse_factorization, const Any_visitor& visitor)
     : t_(t), options_(options), make_factorization_(make_factorization), make_coarse_factorization_(make_coarse_factorization), visitor_(visitor),
       euler_characteristic_(double(component.euler_characteristic())),
-      is_closed_(component.number_of_borders == 0), area_(vertex_areas(t)), width_(std::exp(log_sum(log_areas(t)) / 2))
+      is_closed_(component.number_of_borders == 0), is_begun_coarsely_(is_begun_coarsely(t, options)), area_(vertex_areas(t)),
+      width_(std::exp(log_sum(log_areas(t)) / 2))
   {}
 
-  // Are cones first searched for on a coarse surface, if there are so many places? A bound is to be met on the surface given.
-  static bool is_begun_coarsely(const Cone_options& options, std::size_t number_of_places)
+  // Are cones first searched for on a coarse surface? Only where that has far fewer vertices: else it saves little, and places are not quite the best
+  // ones; of means these matter less. A bound is to be met on the surface given.
+  static bool is_begun_coarsely(const Triangulation& t, const Cone_options& options)
   {
-    return number_of_places >= most_vertices_of_long_search && !options.has_bound();
+    const std::size_t few_vertices = options.measure == Cone_measure::ROOT_MEAN_SQUARE_U ? most_vertices_of_long_search
+                                                                                         : 2 * most_vertices_of_long_search;
+    std::size_t number_of_places = 0;
+    for(Index v = 0; v < t.number_of_vertices(); ++v)
+      number_of_places += t.is_isolated_vertex(v) || t.is_border_vertex(v) ? 0 : 1;
+    return number_of_places >= few_vertices && !options.has_bound();
   }
 
   // Makes the model of the surface given. Returns whether that is possible.
@@ -97,13 +104,13 @@ public:
   // As many cones as are asked for; or until the bounds are met in the model, but no more than `most`. `are_final`: whether their angles are kept
   Curved_cones placed(std::size_t most, bool are_final)
   {
-    if(!is_begun_coarsely(options_, places().size()) || !exchange_levels())
+    if(!is_begun_coarsely_ || !exchange_levels())
       return placed_here(most);
     Curved_cones s = placed_here(most);
     exchange_levels();
     set_places(s, [&](Index c) { return coarse_->vertex(c); });
     if(are_final)
-      improve(s, false);
+      improve(s, options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U); // of a mean it costs little to be thorough
     return s;
   }
 
@@ -138,7 +145,7 @@ public:
   bool quantize(Curved_cones& s, long n)
   {
     const std::size_t most = (std::max)(s.cones.size(), (std::min)(options_.number_of_cones, places().size()));
-    return (is_begun_coarsely(options_, places().size()) && quantize_coarsely(s, n, most)) || quantized(n).quantize(s, most);
+    return (is_begun_coarsely_ && quantize_coarsely(s, n, most)) || quantized(n).quantize(s, most);
   }
 
   // The same with multiples already.
@@ -250,7 +257,6 @@ private:
   // The same as quantize() on the coarse surface, from there and from where the mean of u is least; what is better is moved on the surface given.
   bool quantize_coarsely(Curved_cones& s, long n, std::size_t most)
   {
-    const double most_growth = 1.25; // beyond, what was chosen there is not much worth here
     if(!exchange_levels())
       return false;
     std::vector<Curved_cones> starts(1, s);
@@ -264,25 +270,59 @@ private:
       starts.push_back(placed_for_mean(s.cones.size()));
       starts.push_back(starts.back());
       approach_maximum(starts.back(), decisive_exponent / 2, decisive_exponent);
-      starts.push_back(placed_with_zero_u(s.cones.size()));
+      place_with_zero_u(s.cones.size(), starts);
     }
-    Curved_cones best;
-    double least = std::numeric_limits<double>::infinity();
+    std::vector<Curved_cones> found;
     for(Curved_cones& trial : starts)
-      if(quantized(n).quantize(trial, most) && (best.u.size() == 0 || measure(trial) < least))
-      {
-        least = measure(trial);
-        best = std::move(trial);
-      }
+      if(quantized(n).quantize(trial, most))
+        found.push_back(std::move(trial));
+    keep_best_of_each(found);
     exchange_levels();
+    return quantize_from(found, s, n, most);
+  }
+
+  // Moves on the surface given what was found on the coarse one, the best first; the best of it goes on.
+  bool quantize_from(std::vector<Curved_cones>& found, Curved_cones& s, long n, std::size_t most)
+  {
+    const std::size_t most_starts = 2; // each costs a few rounds on the surface given
+    Curved_cones best;
+    for(std::size_t i = 0; i < (std::min)(found.size(), most_starts); ++i)
+    {
+      Curved_cones& trial = found[i];
+      set_places(trial, [&](Index c) { return coarse_->vertex(c); });
+      move_quantized(trial, n);
+      if(best.u.size() == 0 || measure(trial) < measure(best))
+        best = std::move(trial);
+    }
     if(best.u.size() == 0)
       return false;
+    quantized(n).improve(best, most);
     s = std::move(best);
-    set_places(s, [&](Index c) { return coarse_->vertex(c); });
-    move_quantized(s, n);
-    if(measure(s) > most_growth * least)
-      quantized(n).improve(s, most);
     return true;
+  }
+
+  // In ascending order of what they measure, and no places twice.
+  void keep_best_of_each(std::vector<Curved_cones>& found) const
+  {
+    std::stable_sort(found.begin(), found.end(), [&](const Curved_cones& x, const Curved_cones& y) { return measure(x) < measure(y); });
+    std::vector<Curved_cones> result;
+    for(Curved_cones& x : found)
+      if(std::none_of(result.begin(), result.end(), [&](const Curved_cones& y) { return are_same(x, y); }))
+        result.push_back(std::move(x));
+    found.swap(result);
+  }
+
+  // Are there the same cones, with the same curvatures?
+  static bool are_same(const Curved_cones& x, const Curved_cones& y)
+  {
+    std::vector<std::pair<Index, double> > a, b;
+    for(std::size_t i = 0; i < x.cones.size(); ++i)
+      a.emplace_back(x.cones[i], x.curvatures[Eigen::Index(i)]);
+    for(std::size_t i = 0; i < y.cones.size(); ++i)
+      b.emplace_back(y.cones[i], y.curvatures[Eigen::Index(i)]);
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    return a == b;
   }
 
   // Where a round costs much there are few of them.
@@ -298,10 +338,11 @@ private:
   }
 
   // As in section 5.1 of the paper, to first order: where |u| is largest, again and again, the oldest cone being taken away when there are enough.
-  Curved_cones placed_with_zero_u(std::size_t n)
+  // Adds the last cones, and those with the least of the largest |u| on the way.
+  void place_with_zero_u(std::size_t n, std::vector<Curved_cones>& starts)
   {
-    const std::size_t n_sweeps = 3;
-    Curved_cones s;
+    const std::size_t n_sweeps = 6;
+    Curved_cones s, best;
     s.u = level_.model->flat();
     for(std::size_t i = 0; i < n_sweeps * n; ++i)
     {
@@ -309,8 +350,11 @@ private:
         s.cones.erase(s.cones.begin());
       s.cones.push_back(worst_place(s));
       set_zero_u(s);
+      if(s.cones.size() == n && s.largest() < best.largest())
+        best = s;
     }
-    return s;
+    starts.push_back(std::move(best));
+    starts.push_back(std::move(s));
   }
 
   // The place of the largest |u| that is no cone. \pre there is one
@@ -347,7 +391,7 @@ private:
       m.row(n).head(n).setOnes();
       b[n] = level_.model->total_curvature();
     }
-    const Eigen::VectorXd x = m.fullPivLu().solve(b);
+    const Eigen::VectorXd x = dense_solution(m, b);
     s.curvatures = x.head(n);
     s.shift = is_closed_ ? x[n] : 0;
     s.u = level_.model->flat().array() - s.shift;
@@ -508,6 +552,7 @@ private:
   const Any_visitor visitor_; // may end every search: what has been found counts
   const double euler_characteristic_;
   const bool is_closed_;
+  const bool is_begun_coarsely_;
   const Eigen::VectorXd area_; // by vertex, of one whole
   const double width_;         // the square root of the area of the surface
   Level level_;

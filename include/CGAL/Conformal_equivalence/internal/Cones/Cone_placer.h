@@ -280,7 +280,7 @@ private:
   {
     const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U; // to which closest vectors belong
     return options_.angles == Cone_angles::CHOSEN && options_.measure != Cone_measure::DIRICHLET_ENERGY
-        && (is_mean || !(options_.angle_quantum > 0) || Cone_chooser<NT>::is_begun_coarsely(options_, number_of_inner_vertices()));
+        && (is_mean || !(options_.angle_quantum > 0) || Cone_chooser<NT>::is_begun_coarsely(t_, options_));
   }
 
   // Places and angles together. Returns whether there is a metric with these; if there is none, cones with u = 0 may have one.
@@ -352,13 +352,17 @@ private:
   bool is_doubtful() const
   {
     const Index few_vertices = 5000;
-    const double most_ratio = 1.25; // of demo meshes one in ten is beyond; cones with u = 0 were better at some of these only
+    // of demo meshes one in ten is beyond; cones with u = 0 were better at some of these only. Multiples cannot make up for what was not foreseen
+    const double most_ratio = is_largest_u_rounded() ? 1.05 : 1.25;
     if(is_stopped() || result_.status != Status::OK || !is_success(result_.metric.status))
       return false;
     const bool is_area = options_.measure == Cone_measure::AREA_DISTORTION;
     const double least = 1e-3, now = is_area ? std::log(measured()) : measured(), then = is_area ? std::log(foreseen_) : foreseen_;
     return is_bound_missed() || (now > least && (t_.number_of_vertices() < few_vertices || (has_foreseen_ && now > most_ratio * then)));
   }
+
+  // Multiples for the largest u are chosen where there is a coarse surface; elsewhere angles of cones with u = 0 are rounded, and go on from there.
+  bool is_largest_u_rounded() const { return options_.angle_quantum > 0 && options_.measure != Cone_measure::ROOT_MEAN_SQUARE_U; }
 
   // The better one of what has been chosen and of cones with u = 0 is the result.
   void compare_with_zero_u()
@@ -367,6 +371,8 @@ private:
     const bool misses = misses_a_bound();
     const double amount = measured();
     place_with_zero_u();
+    if(is_largest_u_rounded())
+      improve_multiples();
     const bool is_better = misses_a_bound() == misses ? measured() < amount : misses;
     if(!is_success(result_.metric.status) || result_.status != Status::OK || !is_better)
       keep(chosen);
