@@ -134,9 +134,10 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 /// growing p. The derivative by a curvature anywhere on the surface says where another cone helps most, and where to move those that are there (in
 /// the spirit of Soliman, Slepcev and Crane, "Optimal Cone Singularities for Conformal Flattening", 2018). When this gains no more, the metric
 /// with these cones is solved for. Where it is worse than foreseen the Laplacian is made anew there, and the cones are moved again. What is
-/// returned is the best metric that was solved for. Where that is worse by more than a quarter (with an `angle_quantum` for the largest |u|, a twentieth) than what was
-/// foreseen at first, as may be where edges are flipped by the thousands, and on surfaces of fewer than 5000 vertices in any case, cones with u = 0 are placed as well (see below), and
-/// the better one is returned. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
+/// returned is the best metric that was solved for. Where that is worse by more than a quarter than what was foreseen at first (a twentieth with an
+/// `angle_quantum`, for the largest |u|), as may be where edges are flipped by the thousands, and on surfaces of fewer than 5000 vertices in any
+/// case, cones with u = 0 are placed as well (see below), and the better one is returned. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's
+/// formula allows.
 ///
 /// On surfaces of 40000 inner vertices and more (20000 with `Cone_measure::ROOT_MEAN_SQUARE_U`), unless there is a bound, this is first done on a
 /// coarse surface of some thousand vertices, whose cells are joined by finite volumes, and the cones are moved for a few rounds on the surface given.
