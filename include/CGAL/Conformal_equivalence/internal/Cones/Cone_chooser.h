@@ -151,10 +151,7 @@ public:
   // The same with multiples already.
   void improve_quantized(Curved_cones& s, long n)
   {
-    if(is_large())
-      move_quantized(s, n);
-    else
-      quantized(n).improve(s, s.cones.size() + s.flattened.size());
+    quantized(n).improve(s, s.cones.size() + s.flattened.size());
   }
 
   // The best curvatures for the places of `s`.
