@@ -148,13 +148,15 @@ double angle_at(const Soup& soup, Index a, Index b, Index c)
   return std::acos(dot / std::sqrt(square_b * square_c));
 }
 
-typedef CE::internal::Cone_model<double>   Model;
-typedef CE::internal::Cone_fit<double>     Fit;
+typedef CE::internal::Cone_model           Model;
+typedef CE::internal::Cone_fit             Fit;
 typedef CE::internal::Curved_cones         Curved_cones;
 
 std::unique_ptr<Model> model_of(const Triangulation& t)
 {
-  auto result = std::make_unique<Model>(t, std::vector<double>(t.number_of_vertices(), 0.), double(only_component(t).euler_characteristic()),
+  CE::internal::Cone_surface surface;
+  BOOST_REQUIRE(CE::internal::make_cone_surface(t, std::vector<double>(t.number_of_vertices(), 0.), surface));
+  auto result = std::make_unique<Model>(std::move(surface), double(only_component(t).euler_characteristic()),
                                         CE::internal::make_factorization<CE::Default_solver_traits>());
   BOOST_REQUIRE(result->factorize());
   return result;
@@ -519,6 +521,36 @@ BOOST_AUTO_TEST_CASE(curvatures_are_the_best_ones_for_their_places)
   BOOST_TEST(n_held > 0);
 }
 
+// The coarse surface bears the same curvature and the same area, and the response to a cone is nearly the same away from it: up to a factor, as its
+// weights are those of finite volumes whose normals are not known.
+BOOST_AUTO_TEST_CASE(a_coarse_surface_responds_to_cones_as_the_surface_does)
+{
+  const Triangulation t = triangulation(bumps(48));
+  const auto fine = model_of(t);
+  const CE::internal::Coarse_surface coarse(fine->surface(), 2, true);
+  const auto& surface = coarse.surface();
+  BOOST_TEST(8 * surface.number_of_vertices() < t.number_of_vertices() * 2);
+  const double rounding = 1e-12;
+  BOOST_TEST(std::abs(coarse.sums(CE::internal::vertex_areas(t)).sum() - 1) < rounding);
+  for(double w : surface.weights)
+    BOOST_TEST(w >= 0);
+  Model model(surface, double(only_component(t).euler_characteristic()), CE::internal::make_factorization<CE::Default_solver_traits>());
+  BOOST_REQUIRE(model.factorize());
+  const Index c = model.places()[model.places().size() / 2];
+  const auto g = model.column(c), exact = fine->column(coarse.vertex(c));
+  double product = 0, square = 0, exact_square = 0;
+  for(Index v : model.places())
+    if(v != c)
+    {
+      const double x = (*g)[v], y = (*exact)[coarse.vertex(v)];
+      product += x * y;
+      square += x * x;
+      exact_square += y * y;
+    }
+  const double least_cosine = 0.99; // of the angle between the responses: what cells do not resolve is a few parts in a hundred
+  BOOST_TEST(product > least_cosine * std::sqrt(square * exact_square));
+}
+
 // ... and the dual potential at the cones is the derivative, by differences.
 BOOST_AUTO_TEST_CASE(the_dual_potential_is_the_derivative_by_curvature)
 {
@@ -532,7 +564,7 @@ BOOST_AUTO_TEST_CASE(the_dual_potential_is_the_derivative_by_curvature)
     s.curvatures.resize(3);
     s.curvatures << 1, -0.5, 0.7;
     fit.apply(s);
-    CE::internal::Sparse_cones<double> search(*model, fit, 1.);
+    CE::internal::Sparse_cones search(*model, fit, 1.);
     const Eigen::VectorXd p = search.potential(s);
     const double h = 1e-4, largest_u = s.largest();
     const Eigen::VectorXd load = fit.load_weights(s.u).cwiseProduct(s.u);

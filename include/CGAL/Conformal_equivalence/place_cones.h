@@ -134,14 +134,18 @@ Cone_placement<NT> place_cones(const Intrinsic_triangulation<NT>& t, const Named
 /// growing p. The derivative by a curvature anywhere on the surface says where another cone helps most, and where to move those that are there (in
 /// the spirit of Soliman, Slepcev and Crane, "Optimal Cone Singularities for Conformal Flattening", 2018). When this gains no more, the metric
 /// with these cones is solved for. Where it is worse than foreseen the Laplacian is made anew there, and the cones are moved again. What is
-/// returned is the best metric that was solved for. Where that is worse by more than a quarter than what was foreseen at first, as may be where
-/// edges are flipped by the thousands, and on surfaces of fewer than 5000 vertices in any case, cones with u = 0 are placed as well (see below), and
-/// the better one is returned. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's formula allows.
+/// returned is the best metric that was solved for. Where that is worse by more than a quarter than what was foreseen at first (a twentieth with an
+/// `angle_quantum`, for the largest |u|), as may be where edges are flipped by the thousands, and on surfaces of fewer than 5000 vertices in any
+/// case, cones with u = 0 are placed as well (see below), and the better one is returned. Angles are between pi / 4 and 4 pi, if Gauss and Bonnet's
+/// formula allows.
 ///
-/// With an `angle_quantum` and `Cone_measure::ROOT_MEAN_SQUARE_U` the curvatures are multiples of it, those of a closest vector in the lattice
-/// with the Gram matrix of the columns; then the cones move with these, and multiples are chosen anew.
+/// On surfaces of 40000 inner vertices and more (20000 with `Cone_measure::ROOT_MEAN_SQUARE_U`), unless there is a bound, this is first done on a
+/// coarse surface of some thousand vertices, whose cells are joined by finite volumes, and the cones are moved for a few rounds on the surface given.
 ///
-/// With `Cone_angles::ZERO_U`, or an `angle_quantum` and any other measure, or `Cone_measure::DIRICHLET_ENERGY`, or where there is no such metric
+/// With an `angle_quantum`, and `Cone_measure::ROOT_MEAN_SQUARE_U` or a coarse surface, the curvatures are multiples of it, those of a closest
+/// vector in the lattice with the Gram matrix of the columns; then the cones move with these, and multiples are chosen anew.
+///
+/// With `Cone_angles::ZERO_U`, or an `angle_quantum` in other cases, or `Cone_measure::DIRICHLET_ENERGY`, or where there is no such metric
 /// (because edges must not be flipped, for example), cones have u = 0:
 ///
 ///  - *Greedily*: the vertex with the largest |u| becomes a free cone (u = 0, any angle), one after the other. On borders u = 0. A closed surface of

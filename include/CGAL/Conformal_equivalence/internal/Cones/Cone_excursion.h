@@ -7,6 +7,7 @@
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_EXCURSION_H
 
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/dense_systems.h>
 
 #include <Eigen/Dense>
 
@@ -72,7 +73,7 @@ public:
     if(has_constant_)
       k.row(n).head(n).setOnes();
     if(k.size() > 0)
-      inverse_ = k.fullPivLu().inverse();
+      inverse_ = dense_inverse(k);
     set_own();
   }
 

@@ -19,6 +19,7 @@
 
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_model.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/bounded_minimum.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/dense_systems.h>
 
 #include <Eigen/Dense>
 
@@ -27,6 +28,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -49,11 +51,10 @@ struct Curved_cones
   double largest() const { return u.size() > 0 ? u.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity(); }
 };
 
-template <typename NT>
 class Cone_fit
 {
   typedef std::uint32_t Index;
-  typedef Cone_model<NT> Model;
+  typedef Cone_model Model;
 
 public:
   // `weights`: by vertex, with the sum 1. `has_shift`: whether the scale of u does not matter; on closed surfaces it never does. Keeps a reference.
@@ -152,7 +153,7 @@ public:
     if(model_.is_closed())
       k.row(m).head(number_of_curvatures(x)).setOnes();
     k.col(size - 1).head(m) = k.row(size - 1).head(m);
-    const Eigen::MatrixXd inverse = k.fullPivLu().inverse();
+    const Eigen::MatrixXd inverse = dense_inverse(k);
     Losses result;
     result.growth = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
     result.curvatures = s.curvatures.replicate(1, n);
@@ -184,7 +185,7 @@ public:
   }
 
 private:
-  static constexpr double pi() { return Number_constants<double>::pi(); }
+  static double pi() { return Number_constants<double>::pi(); }
 
   // u as it depends on the unknowns: the curvatures of the cones, the spread one, if there is one, and the shift, if it is unknown.
   struct Columns
@@ -193,6 +194,7 @@ private:
     std::vector<Cone_apex> apexes; // of the cones
     Eigen::VectorXd excess_at_zero; // of the cones, which is in u_flat
     Eigen::MatrixXd values;        // what is linear, by unknown
+    std::vector<Model::Column> kept; // the same as the model keeps it; nothing for the shift
   };
 
   // Unknowns, with u and what is known of its powers.
@@ -228,17 +230,63 @@ private:
       const Index c = s.cones[std::size_t(i)];
       result.apexes.push_back(model_.apex(c));
       result.excess_at_zero[i] = result.apexes.back().excess(0).first;
-      result.values.col(i) = *model_.column(c);
+      result.kept.push_back(model_.column(c));
+      result.values.col(i) = *result.kept.back();
     }
     if(n_curvatures > n)
-      result.values.col(n) = *model_.spread_column();
+    {
+      result.kept.push_back(model_.spread_column());
+      result.values.col(n) = *result.kept.back();
+    }
     if(has_shift_)
+    {
+      result.kept.emplace_back();
       result.values.col(n_curvatures).setConstant(-1);
+    }
     return result;
   }
 
   // The Gram matrix for p = 2
-  Eigen::MatrixXd mean_gram(const Columns& x) const { return gram_of(root_weights_.asDiagonal() * x.values); }
+  Eigen::MatrixXd mean_gram(const Columns& x)
+  {
+    if(x.values.cols() < many_dense_unknowns)
+      return gram_of(root_weights_.asDiagonal() * x.values);
+    kept_gram_ = changed_gram(x);
+    gram_columns_ = x.kept;
+    return kept_gram_;
+  }
+
+  // Of the last columns for which this was asked most are here again, as a rule, where there are many: products of these are known.
+  Eigen::MatrixXd changed_gram(const Columns& x) const
+  {
+    std::map<const Eigen::VectorXd*, Eigen::Index> place;
+    for(std::size_t i = 0; i < gram_columns_.size(); ++i)
+      place[gram_columns_[i].get()] = Eigen::Index(i);
+    const Eigen::Index m = x.values.cols();
+    std::vector<Eigen::Index> before, changed; // by column: where it was, or -1; and those that were not
+    for(Eigen::Index i = 0; i < m; ++i)
+    {
+      const auto known = place.find(x.kept[std::size_t(i)].get());
+      before.push_back(known == place.end() ? -1 : known->second);
+      if(before.back() < 0)
+        changed.push_back(i);
+    }
+    if(2 * Eigen::Index(changed.size()) > m)
+      return gram_of(root_weights_.asDiagonal() * x.values);
+    Eigen::MatrixXd result(m, m), fresh(x.values.rows(), Eigen::Index(changed.size()));
+    for(Eigen::Index j = 0; j < m; ++j)
+      for(Eigen::Index i = 0; i < m; ++i)
+        result(i, j) = before[std::size_t(i)] < 0 || before[std::size_t(j)] < 0 ? 0. : kept_gram_(before[std::size_t(i)], before[std::size_t(j)]);
+    for(std::size_t j = 0; j < changed.size(); ++j)
+      fresh.col(Eigen::Index(j)) = weights_.cwiseProduct(x.values.col(changed[j]));
+    const Eigen::MatrixXd products = x.values.transpose() * fresh;
+    for(std::size_t j = 0; j < changed.size(); ++j)
+    {
+      result.col(changed[j]) = products.col(Eigen::Index(j));
+      result.row(changed[j]) = products.col(Eigen::Index(j)).transpose();
+    }
+    return result;
+  }
 
   static Eigen::MatrixXd gram_of(const Eigen::MatrixXd& x)
   {
@@ -372,7 +420,7 @@ private:
   }
 
   // The solution for p = 2, as if u were linear at cones, too: there one vertex does not matter.
-  Eigen::VectorXd least_squares(const Columns& x) const
+  Eigen::VectorXd least_squares(const Columns& x)
   {
     Eigen::VectorXd flat = model_.flat(), y = Eigen::VectorXd::Zero(x.values.cols());
     for(std::size_t i = 0; i < x.cones.size(); ++i)
@@ -389,7 +437,7 @@ private:
   }
 
   // Newton's method for |u|_p^p, until a step gains no more than a part of `gain`.
-  void improve(int p, double gain, double worth, const Columns& x, Guess& y) const
+  void improve(int p, double gain, double worth, const Columns& x, Guess& y)
   {
     const int most_steps = 12;
     const double longer = 1.5; // where |u|^p still grows by a factor, steps are too short
@@ -433,6 +481,8 @@ private:
   const Eigen::VectorXd weights_, root_weights_;
   const bool has_shift_;
   int exponent_ = 2;
+  std::vector<Model::Column> gram_columns_; // of which products are kept
+  Eigen::MatrixXd kept_gram_;
 };
 
 } // namespace internal

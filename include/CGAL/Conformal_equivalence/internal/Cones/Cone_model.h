@@ -22,10 +22,9 @@
 #ifndef CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_MODEL_H
 #define CGAL_CONFORMAL_EQUIVALENCE_INTERNAL_CONES_CONE_MODEL_H
 
-#include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_surface.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
-#include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
 
 #include <Eigen/Core>
 
@@ -46,8 +45,8 @@ namespace internal {
 class Cone_apex
 {
 public:
-  Cone_apex(double degree, double curvature)
-    : degree_(degree), curvature_(curvature), angle_(admitted((2 * Number_constants<double>::pi() - curvature) / degree)),
+  Cone_apex(double degree, double curvature, double blur)
+    : degree_(degree), curvature_(curvature), blur_(blur), angle_(admitted((2 * Number_constants<double>::pi() - curvature) / degree)),
       sine_(std::sin(angle_ / 2)), slope_(1 / (degree * std::tan(angle_ / 2)))
   {}
 
@@ -55,46 +54,41 @@ public:
   std::pair<double, double> excess(double k) const
   {
     const double half = admitted(angle_ - (k - curvature_) / degree_) / 2, sine = std::sin(half);
-    return std::make_pair(2 * std::log(sine_ / sine) - (k - curvature_) * slope_, std::cos(half) / (sine * degree_) - slope_);
+    return std::make_pair(2 * std::log(sine_ / sine) - (k - curvature_) * (slope_ - blur_), std::cos(half) / (sine * degree_) - slope_ + blur_);
   }
 
 private:
   // Beyond, edges are flipped.
   static double admitted(double angle) { return (std::min)((std::max)(angle, 1e-3), Number_constants<double>::pi()); }
 
-  double degree_, curvature_;
+  double degree_, curvature_, blur_;
   double angle_; // of each of the triangles
   double sine_, slope_;
 };
 
-template <typename NT>
 class Cone_model
 {
 public:
   typedef std::uint32_t Index;
-  typedef Intrinsic_triangulation<NT> Triangulation;
   typedef std::shared_ptr<const Eigen::VectorXd> Column;
 
-  // One component with u = 0 on its borders, if there are any, or closed, with the lengths of `t` scaled by `u`. `t` is Delaunay, if it can be. Takes
-  // linear time; `factorize()` takes more.
-  Cone_model(Triangulation t, Vertex_vector u, double euler_characteristic, std::unique_ptr<Factorization> factorization)
-    : t_(std::move(t)), u_(std::move(u)), linear_(std::move(factorization)), euler_characteristic_(euler_characteristic)
+  // One component with u = 0 on its borders, if there are any, or closed. Takes linear time; `factorize()` takes more.
+  Cone_model(Cone_surface surface, double euler_characteristic, std::unique_ptr<Factorization> factorization)
+    : surface_(std::move(surface)), linear_(std::move(factorization)), euler_characteristic_(euler_characteristic)
   {
-    std::vector<char> free(t_.number_of_vertices(), 0);
-    for(Index v = 0; v < t_.number_of_vertices(); ++v)
+    std::vector<char> free(surface_.number_of_vertices(), 0);
+    for(Index v = 0; v < surface_.number_of_vertices(); ++v)
     {
-      if(t_.is_isolated_vertex(v))
-        continue;
-      if(t_.is_border_vertex(v))
+      if(surface_.is_border_vertex(v))
         is_closed_ = false;
-      else
+      else if(surface_.is_inner_vertex(v))
         inner_.push_back(v);
     }
     for(Index v : inner_)
       free[v] = 1;
     if(is_closed_ && !inner_.empty())
-      free[inner_.front()] = 0;
-    linear_.set_edges(t_);
+      free[surface_.ground] = 0;
+    linear_.set_edges(surface_);
     linear_.set_free(free);
   }
 
@@ -104,26 +98,24 @@ public:
   // Once, before the rest is asked. Returns whether it is possible.
   bool factorize()
   {
-    Conformal_energy<double, NT> energy(t_, true);
-    if(!energy.evaluate(u_) || !linear_.factorize(energy.weights()))
+    if(!linear_.factorize(surface_.weights))
       return false;
-    weights_ = energy.weights();
-    curvature_.assign(u_.size(), 0.);
-    for(Index v : inner_)
-      curvature_[v] = 2 * Number_constants<double>::pi() - energy.angle_sums()[v];
-    const Vertex_vector d = accurate_solution(curvature_);
-    flat_.resize(Eigen::Index(u_.size()));
-    for(std::size_t v = 0; v < u_.size(); ++v)
-      flat_[Eigen::Index(v)] = u_[v] - d[v];
+    const Vertex_vector d = accurate_solution(surface_.curvature);
+    flat_.resize(Eigen::Index(d.size()));
+    for(std::size_t v = 0; v < d.size(); ++v)
+      flat_[Eigen::Index(v)] = surface_.u[v] - d[v];
     for(Index v : inner_)
       flat_[v] += excess(v, 0).first;
     return flat_.allFinite();
   }
 
-  const Triangulation& triangulation() const { return t_; }
+  const Cone_surface& surface() const { return surface_; }
   const std::vector<Index>& places() const { return inner_; } // where cones can be
   bool is_closed() const { return is_closed_; }
   std::size_t number_of_solves() const { return number_of_solves_; }
+
+  // Of what is accurate: the largest residual, as a part of the largest force
+  void set_accuracy(double accuracy) { accuracy_ = accuracy; }
 
   // What the curvatures of the cones of a closed surface sum up to.
   double total_curvature() const { return 2 * Number_constants<double>::pi() * euler_characteristic_; }
@@ -131,7 +123,7 @@ public:
   // u where there are no cones; of a closed surface, as if the curvature missing were at the grounded vertex
   const Eigen::VectorXd& flat() const { return flat_; }
 
-  Cone_apex apex(Index v) const { return Cone_apex(double(t_.degree(v)), curvature_[v]); }
+  Cone_apex apex(Index v) const { return Cone_apex(surface_.degree[v], surface_.own_curvature[v], surface_.blur[v]); }
 
   // What is to be added to u at v, where the curvature becomes k, and its derivative by k.
   std::pair<double, double> excess(Index v, double k) const { return apex(v).excess(k); }
@@ -142,9 +134,9 @@ public:
     const auto known = columns_.find(c);
     if(known != columns_.end())
       return known->second;
-    if(columns_.size() >= (std::max)(std::size_t(32), std::size_t(30000000) / (std::max)(std::size_t(1), u_.size())))
+    if(columns_.size() >= (std::max)(std::size_t(32), std::size_t(30000000) / (std::max)(std::size_t(1), surface_.number_of_vertices())))
       columns_.clear();
-    Vertex_vector force(u_.size(), 0.);
+    Vertex_vector force(surface_.number_of_vertices(), 0.);
     force[c] = 1;
     return columns_.emplace(c, std::make_shared<const Eigen::VectorXd>(solution(force))).first->second;
   }
@@ -154,7 +146,7 @@ public:
   {
     for(Index c : cones)
     {
-      Vertex_vector force(u_.size(), 0.);
+      Vertex_vector force(surface_.number_of_vertices(), 0.);
       force[c] = 1;
       const Vertex_vector g = accurate_solution(force);
       columns_[c] = std::make_shared<const Eigen::VectorXd>(Eigen::VectorXd::Map(g.data(), Eigen::Index(g.size())));
@@ -166,7 +158,7 @@ public:
   {
     if(!spread_)
     {
-      Vertex_vector force(u_.size(), 0.);
+      Vertex_vector force(surface_.number_of_vertices(), 0.);
       for(Index v : inner_)
         force[v] = 1 / double(inner_.size());
       spread_ = std::make_shared<const Eigen::VectorXd>(solution(force));
@@ -176,17 +168,6 @@ public:
 
   // G times a load
   Eigen::VectorXd response(const Eigen::VectorXd& load) { return solution(Vertex_vector(load.data(), load.data() + load.size())); }
-
-  // The vertices next to v.
-  template <typename Visit>
-  void for_each_neighbour(Index v, Visit visit) const
-  {
-    t_.for_each_outgoing(v, [&](Index h)
-    {
-      visit(t_.target(h), t_.edge(h));
-      visit(t_.apex(h), t_.edge(t_.previous(h))); // twice, but that the edges of a border are there
-    });
-  }
 
 private:
   Eigen::VectorXd solution(const Vertex_vector& force)
@@ -201,22 +182,20 @@ private:
   {
     Vertex_vector x;
     bool converged = false;
-    number_of_solves_ += linear_.conjugate_gradients(weights_, force, 1e-10, 30, false, x, converged);
+    number_of_solves_ += linear_.conjugate_gradients(surface_.weights, force, accuracy_, 30, false, x, converged);
     return x;
   }
 
-  const Triangulation t_;
-  const Vertex_vector u_;
+  const Cone_surface surface_;
   Laplacian_solver linear_;
   const double euler_characteristic_;
   bool is_closed_ = true;
   std::vector<Index> inner_;
-  std::vector<double> weights_;
-  Vertex_vector curvature_; // at u_
   Eigen::VectorXd flat_;
   std::map<Index, Column> columns_;
   Column spread_;
   std::size_t number_of_solves_ = 0;
+  double accuracy_ = 1e-10;
 };
 
 } // namespace internal

@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_excursion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_options.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_search.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Shared_factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/area_distortion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/nearest_integers.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/u_measures.h>
@@ -55,7 +56,8 @@ public:
   // The search keeps one factor all the time, which must be none of those that are made for metrics meanwhile. Keeps a reference to `t`.
   Cone_placer(const Triangulation& t, const Cone_options& options, const Solver_options& solver_options,
               std::unique_ptr<Factorization> search_factorization, Factorization_maker make_factorization)
-    : t_(t), options_(options), solver_options_(solver_options), make_factorization_(std::move(make_factorization)),
+    : t_(t), options_(options), solver_options_(solver_options), make_coarse_factorization_(std::move(make_factorization)),
+      make_factorization_(shared_factorization_maker(make_coarse_factorization_)),
       search_factorization_(std::move(search_factorization)), pieces_(connected_components(t)), area_(vertex_areas(t))
   {}
 
@@ -94,11 +96,17 @@ private:
   bool is_sphere() const { return number_of_borders() == 0 && pieces_.components[0].euler_characteristic() > 0; }
   std::size_t number_of_borders() const { return pieces_.components[0].number_of_borders; }
 
-  bool check_number()
+  std::size_t number_of_inner_vertices() const
   {
     std::size_t n = 0;
     for(Index v = 0; v < t_.number_of_vertices(); ++v)
       n += t_.is_isolated_vertex(v) || t_.is_border_vertex(v) ? 0 : 1;
+    return n;
+  }
+
+  bool check_number()
+  {
+    const std::size_t n = number_of_inner_vertices();
     if(options_.number_of_cones > n || (is_sphere() && n < 3))
       refuse(Status::TOO_MANY_CONES, double(n));
     else if(is_sphere() && options_.number_of_cones > 0 && options_.number_of_cones < 3)
@@ -272,14 +280,14 @@ private:
   {
     const bool is_mean = options_.measure == Cone_measure::ROOT_MEAN_SQUARE_U; // to which closest vectors belong
     return options_.angles == Cone_angles::CHOSEN && options_.measure != Cone_measure::DIRICHLET_ENERGY
-        && (is_mean || !(options_.angle_quantum > 0));
+        && (is_mean || !(options_.angle_quantum > 0) || Cone_chooser<NT>::is_begun_coarsely(t_, options_));
   }
 
   // Places and angles together. Returns whether there is a metric with these; if there is none, cones with u = 0 may have one.
   bool choose()
   {
     visitor().on_stage(Stage::PLACE);
-    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, visitor());
+    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, make_coarse_factorization_, visitor());
     if(!chooser.begin())
       return false;
     Curved_cones s;
@@ -287,7 +295,7 @@ private:
       return true;
     if(is_stopped())
       return true;
-    s = chooser.placed(most_cones_for_bound);
+    s = chooser.placed(most_cones_for_bound, !(options_.angle_quantum > 0));
     if(!visitor().go_further())
     {
       refuse(Status::STOPPED_BY_VISITOR);
@@ -344,13 +352,17 @@ private:
   bool is_doubtful() const
   {
     const Index few_vertices = 5000;
-    const double most_ratio = 1.25; // of demo meshes one in ten is beyond; cones with u = 0 were better at some of these only
+    // of demo meshes one in ten is beyond; cones with u = 0 were better at some of these only. Multiples cannot make up for what was not foreseen
+    const double most_ratio = is_largest_u_rounded() ? 1.05 : 1.25;
     if(is_stopped() || result_.status != Status::OK || !is_success(result_.metric.status))
       return false;
     const bool is_area = options_.measure == Cone_measure::AREA_DISTORTION;
     const double least = 1e-3, now = is_area ? std::log(measured()) : measured(), then = is_area ? std::log(foreseen_) : foreseen_;
     return is_bound_missed() || (now > least && (t_.number_of_vertices() < few_vertices || (has_foreseen_ && now > most_ratio * then)));
   }
+
+  // Multiples for the largest u are chosen where there is a coarse surface; elsewhere angles of cones with u = 0 are rounded, and go on from there.
+  bool is_largest_u_rounded() const { return options_.angle_quantum > 0 && options_.measure != Cone_measure::ROOT_MEAN_SQUARE_U; }
 
   // The better one of what has been chosen and of cones with u = 0 is the result.
   void compare_with_zero_u()
@@ -359,6 +371,8 @@ private:
     const bool misses = misses_a_bound();
     const double amount = measured();
     place_with_zero_u();
+    if(is_largest_u_rounded())
+      improve_multiples();
     const bool is_better = misses_a_bound() == misses ? measured() < amount : misses;
     if(!is_success(result_.metric.status) || result_.status != Status::OK || !is_better)
       keep(chosen);
@@ -674,7 +688,7 @@ private:
        || result_.status != Status::OK || !is_success(result_.metric.status))
       return;
     visitor().on_stage(Stage::PLACE);
-    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, visitor());
+    Cone_chooser<NT> chooser(t_, pieces_.components[0], options_, make_factorization_, make_coarse_factorization_, visitor());
     if(!chooser.go_on_from(result_.metric) && !chooser.begin())
       return;
     const double turn = 2 * Number_constants<double>::pi();
@@ -745,7 +759,8 @@ private:
   const Triangulation& t_;
   const Cone_options options_;
   const Solver_options solver_options_;
-  const Factorization_maker make_factorization_;
+  const Factorization_maker make_coarse_factorization_;
+  const Factorization_maker make_factorization_; // all of them share one
   std::unique_ptr<Factorization> search_factorization_;
   const Surface_components pieces_;
   const Eigen::VectorXd area_; // by vertex, of one whole

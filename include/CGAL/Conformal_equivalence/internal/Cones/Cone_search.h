@@ -23,6 +23,7 @@
 #include <CGAL/Conformal_equivalence/Intrinsic_triangulation.h>
 #include <CGAL/Conformal_equivalence/Surface_topology.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_excursion.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/dense_systems.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/Laplacian_solver.h>
 #include <CGAL/Conformal_equivalence/internal/Solver/energy.h>
@@ -409,7 +410,7 @@ private:
         m(Eigen::Index(i), Eigen::Index(k)) = m(Eigen::Index(k), Eigen::Index(i)) = 1;
       b[Eigen::Index(k)] = -total;
     }
-    const Eigen::VectorXd x = m.fullPivLu().solve(b);
+    const Eigen::VectorXd x = dense_solution(m, b);
     if(!x.allFinite())
       return false;
     for(std::size_t j = 0; j < k; ++j)

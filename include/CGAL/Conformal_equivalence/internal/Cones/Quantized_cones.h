@@ -35,7 +35,6 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-template <typename NT>
 class Quantized_cones
 {
   typedef std::uint32_t Index;
@@ -45,7 +44,7 @@ public:
   typedef std::function<double(const Curved_cones&)> Measure;
 
   // Keeps references. `largest_exponent`: of the norms by which cones are moved; 2 for the root mean square
-  Quantized_cones(Cone_model<NT>& model, Cone_fit<NT>& fit, Sparse_cones<NT>& search, Measure measure, long quanta_of_turn, int largest_exponent)
+  Quantized_cones(Cone_model& model, Cone_fit& fit, Sparse_cones& search, Measure measure, long quanta_of_turn, int largest_exponent)
     : model_(model), fit_(fit), search_(search), measure_(std::move(measure)), n_(quanta_of_turn), largest_exponent_(largest_exponent)
   {}
 
@@ -76,18 +75,16 @@ public:
     }
   }
 
-private:
-
-  // Moves the cones with the curvatures that they have.
-  void move(Curved_cones& s)
+  // Moves the cones with the curvatures that they have; for some powers, the least and the factor from one to the next of which are given.
+  void move(Curved_cones& s, int first = 16, int factor = 2, int most_rounds_of_power = 20)
   {
     search_.keep_angles(true);
     Curved_cones best = s;
-    for(int p = (std::min)(16, largest_exponent_); p <= largest_exponent_; p *= 2)
+    for(int p = (std::min)(first, largest_exponent_); p <= largest_exponent_; p *= factor)
     {
       fit_.set_exponent(p);
       fit_.apply(s);
-      search_.slide(s, 20);
+      search_.slide(s, most_rounds_of_power);
       if(measure_(s) < measure_(best))
         best = s;
     }
@@ -96,6 +93,7 @@ private:
     fit_.apply(s);
   }
 
+private:
   static constexpr int most_rounds = 4;            // the second seldom changes anything
   static constexpr double least_gain = 1e-3;       // a part of the measure
   static constexpr std::size_t most_candidates = 12; // by each of the norms
@@ -244,7 +242,7 @@ private:
       fit_.set_exponent((std::min)(8, largest_exponent_));
       fit_.apply(s);
       const std::pair<Index, Index> extremes = search_.extremes(s, search_.potential(s));
-      if(extremes.first == Sparse_cones<NT>::null_index || extremes.first == extremes.second)
+      if(extremes.first == Sparse_cones::null_index || extremes.first == extremes.second)
         break;
       Curved_cones best;
       double least = (1 - least_gain) * measure_(s);
@@ -279,9 +277,9 @@ private:
       s.flattened.pop_back();
   }
 
-  Cone_model<NT>& model_;
-  Cone_fit<NT>& fit_;
-  Sparse_cones<NT>& search_;
+  Cone_model& model_;
+  Cone_fit& fit_;
+  Sparse_cones& search_;
   const Measure measure_;
   const long n_;
   const int largest_exponent_;

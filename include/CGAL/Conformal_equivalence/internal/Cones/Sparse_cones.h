@@ -34,7 +34,6 @@ namespace CGAL {
 namespace Conformal_equivalence {
 namespace internal {
 
-template <typename NT>
 class Sparse_cones
 {
   typedef std::uint32_t Index;
@@ -43,7 +42,7 @@ public:
   static constexpr Index null_index = Intrinsic_triangulation<>::null_index;
 
   // Keeps references. `width`: the square root of the area of the surface
-  Sparse_cones(Cone_model<NT>& model, Cone_fit<NT>& fit, double width) : model_(model), fit_(fit), width_(width) {}
+  Sparse_cones(Cone_model& model, Cone_fit& fit, double width) : model_(model), fit_(fit), width_(width) {}
 
   // Whether cones move with the curvatures that they have.
   void keep_angles(bool are_kept) { are_angles_kept_ = are_kept; }
@@ -134,7 +133,7 @@ public:
   {
     if(s.cones.size() <= rank || fit_.are_too_few(s.cones.size() - 1))
       return false;
-    const typename Cone_fit<NT>::Losses losses = fit_.losses(s);
+    const Cone_fit::Losses losses = fit_.losses(s);
     const Eigen::VectorXd& loss = losses.growth;
     std::vector<std::size_t> order(s.cones.size());
     for(std::size_t i = 0; i < order.size(); ++i)
@@ -227,7 +226,7 @@ private:
     {
       return k * (p[c] - p[v]) - (fit_.exponent() - 1) * k * k * stiffness * d * d / four_pi * (0.5 + std::log(1 + 1 / (2 * d)));
     };
-    const auto& t = model_.triangulation();
+    const Cone_surface& surface = model_.surface();
     Proposal best = {c, 0};
     double distance = 0;
     for(bool goes_on = true; goes_on; )
@@ -235,10 +234,10 @@ private:
       goes_on = false;
       const Index v = best.to;
       double next_distance = distance;
-      model_.for_each_neighbour(v, [&](Index w, Index e)
+      surface.for_each_neighbour(v, [&](Index w, double length)
       {
-        const double d = distance + static_cast<double>(t.length(e)) / width_, g = gain(w, d);
-        if(g > best.gain && !t.is_border_vertex(w) && std::find(taken.begin(), taken.end(), w) == taken.end())
+        const double d = distance + length / width_, g = gain(w, d);
+        if(g > best.gain && !surface.is_border_vertex(w) && std::find(taken.begin(), taken.end(), w) == taken.end())
         {
           best = {w, g};
           next_distance = d;
@@ -309,8 +308,8 @@ private:
     return false;
   }
 
-  Cone_model<NT>& model_;
-  Cone_fit<NT>& fit_;
+  Cone_model& model_;
+  Cone_fit& fit_;
   const double width_;
   bool are_angles_kept_ = false;
 };
