@@ -188,11 +188,11 @@ private:
         continue;
       ++metric_.number_of_steps;
       metric_.least_step = (std::min)(metric_.least_step, part);
-      metric_.residuals.push_back(largest(residual_));
       if(residual_.norm() > well * before)
         equations_.reset();
       if(part < 1)
         return_towards_class();
+      metric_.residuals.push_back(largest(residual_));
       return true;
     }
     return false;
