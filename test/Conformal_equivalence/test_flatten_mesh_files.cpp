@@ -750,7 +750,7 @@ BOOST_AUTO_TEST_CASE(colours_of_vertices_are_kept)
 
   // in PLY as bytes, of which these are multiples
   std::string in_bytes = coloured;
-  for(const auto& [from, to] : std::vector<std::pair<std::string, std::string> >{{"0.5", "0.6"}, {"0.25 0.125", "0.2 0.4"}, {"0.1 ", "0.8 "},
+  for(const auto& [from, to] : std::vector<std::pair<std::string, std::string> >{{"0.5", "0.6"}, {"0.25 0.125", "0.2 0.4"}, {"0.1 0.2 0.3", "0.8 0.2 0.4"},
                                                                                  {"1 1 0.1", "1 1 0.1 1 1 1"}, {"0 1 0\n", "0 1 0 1 1 1\n"}})
     in_bytes = replaced(in_bytes, from, to);
   std::string given;

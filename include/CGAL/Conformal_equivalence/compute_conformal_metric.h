@@ -138,7 +138,7 @@ public:
   ///  - `DEGENERATE_METRIC`: the minimizer was found, but is no metric: `faces` violate the
   ///    triangle inequality, decided exactly; or, with `Retriangulation::ALWAYS`, there are `faces` among those given that do;
   ///  - `SCALE_OUT_OF_RANGE` (`amount`: largest less least u): the metric was found, but leaves the range of `NT`. `log_scale_factors`, found in
-  ///    `double`, are all that there is of it: their angle sums are right to `statistics.residual`, which is at most 1e-6 radians; a type with a
+  ///    `double`, are all that there is of it: their angle sums are right to `statistics.residual`, which is at most 1e-3 radians; a type with a
   ///    wider range of exponents finds the rest;
   ///  - `ITERATIONS_EXHAUSTED` (`amount`: the residual; `faces`: the triangles broken there): no metric was found. Where numbers ranged far,
   ///    `statistics` tell over which u the last step ranged;

@@ -40,6 +40,7 @@ Number number_at(const std::string& bytes, std::size_t& at)
 struct Ply_file
 {
   std::vector<std::string> names; // of the properties of vertices
+  std::vector<std::string> types; // of these
   std::vector<std::map<std::string, double> > vertices;
   std::vector<std::vector<std::uint32_t> > faces;
   std::vector<std::uint32_t> charts;
@@ -59,14 +60,18 @@ struct Ply_file
         (second == "vertex" ? number_of_vertices : number_of_faces) = std::stoul(third);
       if(first == "element")
         is_vertex = second == "vertex";
-      if(first == "property" && is_vertex)
-        names.push_back(third);
+      if(first != "property" || ! is_vertex)
+        continue;
+      names.push_back(third);
+      types.push_back(second);
     }
     for(std::size_t i = 0; i < number_of_vertices; ++i)
     {
       vertices.emplace_back();
-      for(const std::string& name : names)
-        vertices.back()[name] = name == "vertex" ? number_at<std::uint32_t>(bytes, at) : number_at<double>(bytes, at);
+      for(std::size_t k = 0; k < names.size(); ++k)
+        vertices.back()[names[k]] = types[k] == "uint"  ? number_at<std::uint32_t>(bytes, at)
+                                  : types[k] == "uchar" ? number_at<unsigned char>(bytes, at)
+                                                        : number_at<double>(bytes, at);
     }
     for(std::size_t f = 0; f < number_of_faces; ++f)
     {

@@ -479,7 +479,7 @@ private:
   // Is u, in `double`, the solution? It may also be as near to it as rounding allows, which among needles says nothing.
   bool is_solution(const Metric& result) const
   {
-    const double close = 1e-6; // radians: more than rounding leaves where lengths are known
+    const double close = 1e-3; // radians: more than rounding leaves where lengths range far, far less than needles cost
     return result.status == Status::OK && !has_left_needles_ && result.statistics.residual <= close;
   }
 
