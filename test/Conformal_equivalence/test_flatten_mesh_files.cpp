@@ -750,8 +750,9 @@ BOOST_AUTO_TEST_CASE(colours_of_vertices_are_kept)
 
   // in PLY as bytes, of which these are multiples
   std::string in_bytes = coloured;
-  for(const auto& [from, to] : std::vector<std::pair<std::string, std::string> >{{"0.5", "0.6"}, {"0.25 0.125", "0.2 0.4"}, {"0.1 0.2 0.3", "0.8 0.2 0.4"},
-                                                                                 {"1 1 0.1", "1 1 0.1 1 1 1"}, {"0 1 0\n", "0 1 0 1 1 1\n"}})
+  const std::vector<std::pair<std::string, std::string> > changes = {{"0.5", "0.6"}, {"0.25 0.125", "0.2 0.4"}, {"0.1 0.2 0.3", "0.8 0.2 0.4"},
+                                                                     {"1 1 0.1", "1 1 0.1 1 1 1"}, {"0 1 0\n", "0 1 0 1 1 1\n"}};
+  for(const auto& [from, to] : changes)
     in_bytes = replaced(in_bytes, from, to);
   std::string given;
   std::istringstream vertices(in_bytes);
