@@ -199,27 +199,36 @@ double full_color(Ply_type type)
   }
 }
 
+// Which of x, y, z, red, green, blue the property is; 6: another one.
+std::size_t place_of(const Ply_property& property)
+{
+  const std::array<std::string_view, 6> names{{"x", "y", "z", "red", "green", "blue"}};
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), property.name) - names.begin());
+}
+
 // Coordinates, and colours if there are the three of them.
 void read_ply_vertices(Ply_numbers& numbers, const Ply_element& element, Polygon_soup& soup)
 {
-  const std::array<std::string, 3> coordinate{{"x", "y", "z"}}, part{{"red", "green", "blue"}};
-  const bool has_colors = std::all_of(part.begin(), part.end(), [&](const std::string& name)
-    { return std::any_of(element.properties.begin(), element.properties.end(), [&](const Ply_property& p) { return p.name == name; }); });
+  std::array<bool, 7> has{};
+  std::vector<std::size_t> places;
+  for(const Ply_property& property : element.properties)
+  {
+    places.push_back(place_of(property));
+    has[places.back()] = true;
+  }
+  const bool has_colors = has[3] && has[4] && has[5];
   soup.attributes.colors.resize(has_colors ? soup.points.size() : 0);
   for(std::size_t v = 0; v < soup.points.size(); ++v)
   {
     std::array<double, 3> color{{0, 0, 0}};
-    for(const Ply_property& property : element.properties)
-      for(std::size_t n = numbers.next_length(property); n > 0; --n)
+    for(std::size_t i = 0; i < places.size(); ++i)
+      for(std::size_t n = numbers.next_length(element.properties[i]); n > 0; --n)
       {
-        const double x = numbers.next(property.type);
-        for(std::size_t k = 0; k < 3; ++k)
-        {
-          if(property.name == coordinate[k])
-            soup.points[v][k] = x;
-          if(property.name == part[k])
-            color[k] = x / full_color(property.type);
-        }
+        const double x = numbers.next(element.properties[i].type);
+        if(places[i] < 3)
+          soup.points[v][places[i]] = x;
+        else if(places[i] < 6)
+          color[places[i] - 3] = x / full_color(element.properties[i].type);
       }
     if(has_colors)
       soup.attributes.colors[v] = color;

@@ -63,10 +63,7 @@ public:
   {
     const std::size_t few_vertices = options.measure == Cone_measure::ROOT_MEAN_SQUARE_U ? most_vertices_of_long_search
                                                                                          : 2 * most_vertices_of_long_search;
-    std::size_t number_of_places = 0;
-    for(Index v = 0; v < t.number_of_vertices(); ++v)
-      number_of_places += t.is_isolated_vertex(v) || t.is_border_vertex(v) ? 0 : 1;
-    return number_of_places >= few_vertices && !options.has_bound();
+    return !options.has_bound() && number_of_inner_vertices(t) >= few_vertices;
   }
 
   // Makes the model of the surface given. Returns whether that is possible.
@@ -149,10 +146,7 @@ public:
   }
 
   // The same with multiples already.
-  void improve_quantized(Curved_cones& s, long n)
-  {
-    quantized(n).improve(s, s.cones.size() + s.flattened.size());
-  }
+  void improve_quantized(Curved_cones& s, long n) { quantized(n).improve(s, s.cones.size() + s.flattened.size()); }
 
   // The best curvatures for the places of `s`.
   Eigen::VectorXd best_curvatures(const Curved_cones& s)

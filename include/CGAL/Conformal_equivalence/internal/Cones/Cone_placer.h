@@ -20,6 +20,7 @@
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_excursion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_options.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Cone_search.h>
+#include <CGAL/Conformal_equivalence/internal/Cones/Cone_surface.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/Shared_factorization.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/area_distortion.h>
 #include <CGAL/Conformal_equivalence/internal/Cones/nearest_integers.h>
@@ -96,17 +97,9 @@ private:
   bool is_sphere() const { return number_of_borders() == 0 && pieces_.components[0].euler_characteristic() > 0; }
   std::size_t number_of_borders() const { return pieces_.components[0].number_of_borders; }
 
-  std::size_t number_of_inner_vertices() const
-  {
-    std::size_t n = 0;
-    for(Index v = 0; v < t_.number_of_vertices(); ++v)
-      n += t_.is_isolated_vertex(v) || t_.is_border_vertex(v) ? 0 : 1;
-    return n;
-  }
-
   bool check_number()
   {
-    const std::size_t n = number_of_inner_vertices();
+    const std::size_t n = number_of_inner_vertices(t_);
     if(options_.number_of_cones > n || (is_sphere() && n < 3))
       refuse(Status::TOO_MANY_CONES, double(n));
     else if(is_sphere() && options_.number_of_cones > 0 && options_.number_of_cones < 3)

@@ -60,6 +60,16 @@ public:
   Index target(Index h) const { return ends[h / 2].second; }
 };
 
+// Where there can be cones.
+template <typename NT>
+std::size_t number_of_inner_vertices(const Intrinsic_triangulation<NT>& t)
+{
+  std::size_t n = 0;
+  for(std::uint32_t v = 0; v < t.number_of_vertices(); ++v)
+    n += t.is_isolated_vertex(v) || t.is_border_vertex(v) ? 0 : 1;
+  return n;
+}
+
 // Once each, in the order in which they are met around the vertices.
 template <typename NT>
 void add_neighbours(const Intrinsic_triangulation<NT>& t, Cone_surface& s)
